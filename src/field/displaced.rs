@@ -14,10 +14,7 @@ impl<D: Displacement> Displaced<'_, D> {
     /// [`Patch::evaluate_curved`] in a copy of its own.
     #[inline(always)]
     pub(crate) fn evaluate_apart(&self, parameters: [f32; 2]) -> CurvedPoint {
-        if self.by.is_rest() {
-            return self.rest.evaluate_apart::<D::Kinds>(parameters);
-        }
-        let mut point = self.rest.evaluate_apart::<D::Kinds>(parameters);
+        let mut point = self.rest.evaluate_apart(parameters);
         self.by.displace_curved(&mut point);
         point
     }
@@ -38,11 +35,7 @@ impl<D: Displacement> Patch for Displaced<'_, D> {
 
     #[inline(always)]
     fn evaluate_curved(&self, u: f32, v: f32) -> CurvedPoint {
-        // A rigid body's point is not copied.
-        if self.by.is_rest() {
-            return self.rest.evaluate_kinds::<D::Kinds>(u, v);
-        }
-        let mut point = self.rest.evaluate_kinds::<D::Kinds>(u, v);
+        let mut point = self.rest.evaluate_curved(u, v);
         self.by.displace_curved(&mut point);
         point
     }

@@ -6,21 +6,16 @@
 
 mod displaced;
 mod jet;
-mod modal;
 mod mode;
 
 pub use displaced::Displaced;
-pub use modal::{Modal, ModalStep};
 pub use mode::{Bump, Field, FieldBounds, MAX_MODES, Mode, Quadratic};
 
 use crate::math::Vec3;
-use crate::patch::{ALL_KINDS, CurvedPoint, KindSet, Kinds, ShapeBounds, SurfacePoint};
+use crate::patch::{CurvedPoint, ShapeBounds, SurfacePoint};
 
 /// A displacement of space `Φ`, by which a body at rest is deformed.
 pub trait Displacement: Copy {
-    /// The kinds of patches of the body at rest.
-    type Kinds: Kinds;
-
     /// Whether it displaces nothing.
     fn is_rest(&self) -> bool;
 
@@ -54,13 +49,11 @@ pub trait Displacement: Copy {
     fn undo(&self, probe: Vec3, within: f32) -> Vec3;
 }
 
-/// No displacement: a rigid body, of these kinds of patches ([`Kinds::MASK`]).
+/// No displacement: a rigid body.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Rigid<const KINDS: u32 = ALL_KINDS>;
+pub struct Rigid;
 
-impl<const KINDS: u32> Displacement for Rigid<KINDS> {
-    type Kinds = KindSet<KINDS>;
-
+impl Displacement for Rigid {
     #[inline(always)]
     fn is_rest(&self) -> bool {
         true

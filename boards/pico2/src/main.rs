@@ -9,7 +9,6 @@
 #![no_main]
 
 mod body;
-mod bus;
 mod chip;
 mod pins;
 mod port;

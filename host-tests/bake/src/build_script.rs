@@ -44,21 +44,17 @@ pub enum BakeError {
     /// The model is refused.
     #[error(transparent)]
     Model(#[from] ModelError),
-    /// A tick on the body may take more than the limit.
+    /// A tick on the body may take more evaluations than the limit.
     #[error(
-        "{file}: a tick may take {evaluations} evaluations and {cycles} modelled cycles, the limits are {} and {}: \
-         merge faces that meet at a vertex, or lower the degree of the patches",
-        limit.evaluations, limit.cycles
+        "{file}: a tick may take {evaluations} evaluations, the limit is {limit}: merge faces that meet at a vertex"
     )]
     Tick {
         /// The model file.
         file: String,
         /// Evaluations of the worst tick.
         evaluations: u32,
-        /// Its modelled cycles.
-        cycles: u32,
         /// The limit.
-        limit: TickLimit,
+        limit: u32,
     },
     /// The library refuses the tables.
     #[error("{file}: {cause}")]
@@ -146,11 +142,9 @@ impl Bake {
             (body, _) = located.map_err(|cause| BakeError::Locator { file: file.clone(), cause })?;
         }
         let tables = body.to_body().map_err(|cause| BakeError::Tables { file: file.clone(), cause })?;
-        let limit = self.tick_limit;
-        let tables = tables.fitted(limit);
-        if !tables.fits(limit) {
-            let (evaluations, cycles) = (tables.worst_tick(TickWork::EACH).cost, tables.worst_cycles());
-            return Err(BakeError::Tick { file, evaluations, cycles, limit });
+        let (evaluations, limit) = (tables.worst_tick(TickWork::EACH).cost, self.tick_limit.evaluations);
+        if evaluations > limit {
+            return Err(BakeError::Tick { file, evaluations, limit });
         }
         let name = self.model.file_name().unwrap_or(self.model.as_os_str());
         let out = folder.as_ref().join(name).with_extension("rs");

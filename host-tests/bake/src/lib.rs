@@ -27,7 +27,6 @@ pub mod modes;
 pub mod parallel;
 mod patch;
 mod random;
-pub mod ritz;
 pub mod shape;
 pub mod sides;
 pub mod source;

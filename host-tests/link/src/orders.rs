@@ -178,6 +178,5 @@ const fn name(order: &Command) -> &'static str {
         Command::Push { .. } => "push",
         Command::Take { .. } => "take",
         Command::PutBack { .. } => "put back",
-        Command::Feel(_) => "feel",
     }
 }
