@@ -244,7 +244,7 @@ fn solids_in_different_units_are_refused() {
     assert!(message.contains("face ") && message.contains("in one unit"), "{message}");
 }
 
-/// Validation properties, as systems write them for whoever reads the file: 24,000 − 720 π mm³.
+/// Validation properties, as CAD systems write them: 24,000 − 720 π mm³.
 #[test]
 fn a_volume_that_the_file_has_is_compared() {
     let product =

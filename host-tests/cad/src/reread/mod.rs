@@ -539,7 +539,7 @@ mod tests {
         (read(&path(name)).unwrap(), first::read(&path(name), None, 0.01).unwrap())
     }
 
-    /// What is said of patches that are moved and scaled.
+    /// The errors for patches that are moved and scaled.
     fn said(reread: &Reread, part: &Part, of: &[Imported], by: impl Fn(usize, DVec3) -> DVec3) -> Result<(), String> {
         let moved = |(index, imported): (usize, &Imported)| {
             let mut patches: Vec<Bezier> = imported.patches.iter().map(|patch| patch.surface.clone()).collect();
