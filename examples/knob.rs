@@ -26,7 +26,9 @@ fn main() {
         speed = filter.next(speed, angle - last);
         last = angle;
         let torque = DETENTS.force(&mut detent, angle, speed);
-        wheel.turn(Duty::from_fraction(MOTOR.fraction(torque)), if tick < 4_000 { 0.022 } else { 0.0 });
+        // A finger that pulls harder and harder from detent to detent, and lets go in between.
+        let pull = if tick % 2_000 < 1_000 { 2.4e-5 * (tick % 2_000) as f32 } else { 0.0 };
+        wheel.turn(Duty::from_fraction(MOTOR.fraction(torque)), pull);
         if tick % 400 == 0 {
             println!("{:5.2} s  detent {detent:2}  angle {angle:6.3} rad  torque {torque:7.4} N·m", tick as f32 / RATE);
         }

@@ -9,12 +9,13 @@ use crate::{Board, Hold, Interlock, Mailbox, Panel, Settings, Verdict};
 use palpate::commission::Wiring;
 use palpate::device::Kinematics;
 use palpate::math::Vec3;
-use palpate::scene::Commanded;
+use palpate::render::Feel;
+use palpate::scene::{Commanded, SceneError};
 use palpate::servo::{
     Deadline, Event, FrameBridge, Guard, Input, Output, PeriodWindow, ResetReason, Servo, ServoState, Surface,
 };
 use palpate::wire::telemetry::{Producer, Recorder};
-use palpate::wire::{Answer, Record, Refused, View, hold};
+use palpate::wire::{Answer, DIALS_HZ, Dial, Record, Refused, View, hold};
 
 /// Where the loop finds its servo.
 ///
@@ -71,6 +72,8 @@ pub struct Bench<'a, F: Felt<JOINTS>, B, const JOINTS: usize> {
     rate: u32,
     /// Ticks done, in whatever phase.
     ticks: u32,
+    /// Ticks until a knob tells of its dial.
+    dial_in: u32,
     acknowledging: Acknowledging,
     confirming: Confirming,
     /// Takes the servo's place once the host asks for it; `None` where jogging is not offered.
@@ -108,6 +111,7 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
             // At least 1 Hz, and below 2³² by far.
             rate: rate as u32,
             ticks: 0,
+            dial_in: 0,
             acknowledging: Acknowledging::new(rate),
             confirming: Confirming::new(rate),
             began: None,
@@ -223,6 +227,14 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
         &self.state
     }
 
+    /// Starts a knob with a feel that was kept, or changes nothing: before the first tick.
+    ///
+    /// # Errors
+    /// The value that this device does not bear, or a surface that is no knob.
+    pub fn restore(&mut self, feel: Feel) -> Result<(), SceneError> {
+        self.felt.servo().restore(&mut self.state, feel)
+    }
+
     /// The servo's place.
     pub const fn felt(&self) -> &F {
         &self.felt
@@ -266,6 +278,9 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
             } else {
                 self.felt.servo().apply(&mut self.state, &order).err().map(Refused::Command)
             };
+            if let Some(feel) = self.felt.servo().own_feel(&self.state) {
+                self.mailbox.tell_feel(&feel);
+            }
             self.mailbox.put_answer(Answer { number, refused });
         }
         if commands.has(Plain::Acknowledge) && self.is_reset_pending() && self.interlock.is_released() {
@@ -406,6 +421,28 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
         }
     }
 
+    /// A knob tells of its dial.
+    #[inline]
+    fn tell_dial(&mut self) {
+        self.dial_in = self.dial_in.saturating_sub(1);
+        if self.dial_in == 0
+            && let Some(dial) = self.felt.servo().dial(&self.state)
+        {
+            self.dial_in = self.rate / DIALS_HZ;
+            self.mailbox.tell_dial(&Dial {
+                tick: self.ticks,
+                turns: dial.turns,
+                angle: dial.angle_rad,
+                rate: self.state.rates().first().copied().unwrap_or(0.0),
+                torque: dial.torque_n_m,
+                feel: dial.feel,
+                detent: dial.detent,
+                end: dial.end,
+                kept: 0,
+            });
+        }
+    }
+
     /// Telemetry, light and heartbeat.
     #[inline]
     fn tell(&mut self, began: u32, verdict: Verdict) {
@@ -419,6 +456,7 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
             let velocity = pose.map_or(Vec3::ZERO, |pose| pose.velocity(rates));
             self.mailbox.tell_view(&View::new(&self.state, velocity, holds));
         }
+        self.tell_dial();
         self.recorder.set_board(self.bridge.total(), holds);
         let gains = self.felt.wiring().joints(self.board.gains());
         self.recorder.set_sensors(self.bridge.rate().per_10_000(), &gains);

@@ -114,6 +114,54 @@ impl<D: Drives<JOINTS>, E: OutputPin, const JOINTS: usize> Drives<JOINTS> for Sw
     }
 }
 
+/// Commands in a row for which a break may go unexplained: stop may be pressed between looking at it and driving.
+const UNEXPLAINED: u8 = 2;
+
+/// Drives whose outputs an input of the hardware ends, without the program. A break that is over is taken back; one that
+/// lasts enables nothing, and is soon a failure.
+#[derive(Debug)]
+pub struct Breakable<D, F = fn() -> bool> {
+    drives: D,
+    is_broken: F,
+    /// Commands in a row that found them off.
+    broken: u8,
+}
+
+impl<D, F> Breakable<D, F> {
+    /// These drives. `is_broken` is whether their outputs are off, and stay so although it tried to take the break back.
+    pub const fn new(drives: D, is_broken: F) -> Self {
+        Self { drives, is_broken, broken: 0 }
+    }
+}
+
+impl<D: Drives<JOINTS>, F: Fn() -> bool, const JOINTS: usize> Drives<JOINTS> for Breakable<D, F> {
+    #[inline]
+    fn aim(&mut self, fields: [ElectricalAngle; JOINTS]) {
+        self.drives.aim(fields);
+    }
+
+    #[inline]
+    fn apply(&mut self, duties: [Duty; JOINTS]) -> Result<(), NotObeyed> {
+        if (self.is_broken)() {
+            self.broken = self.broken.saturating_add(1);
+            self.drives.release()?;
+            return obeyed(self.broken <= UNEXPLAINED);
+        }
+        self.broken = 0;
+        self.drives.apply(duties)
+    }
+
+    #[inline]
+    fn release(&mut self) -> Result<(), NotObeyed> {
+        self.drives.release()
+    }
+
+    #[inline]
+    fn reads_enabled(&self) -> bool {
+        self.drives.reads_enabled()
+    }
+}
+
 /// Drives whose enable lines are read back at their pins, past whatever was written to them.
 #[derive(Debug)]
 pub struct ReadBack<D, F = fn() -> bool> {

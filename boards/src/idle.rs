@@ -1,14 +1,15 @@
 //! Main's loop, below the tick.
 
 use crate::calibrations::Calibrating;
+use crate::feels::FeelKeeping;
 use crate::mailbox::Plain;
 use crate::outbox::Outbox;
 use crate::taking::Taking;
-use crate::{Calibrations, Mailbox, Uploads};
+use crate::{Calibrations, Feels, Mailbox, Uploads};
 use palpate::servo::Heartbeat;
 use palpate::wire::frame::{Received, Receiver};
 use palpate::wire::telemetry::Consumer;
-use palpate::wire::{Answer, DeviceMessage, Hello, HostMessage, PROTOCOL, Record, Refused};
+use palpate::wire::{Answer, DeviceMessage, Dial, Hello, HostMessage, PROTOCOL, Record, Refused};
 
 /// A serial port that is never waited for.
 pub trait Port {
@@ -69,6 +70,7 @@ pub struct Idle<'a> {
     outbox: Outbox,
     taking: Taking<'a>,
     calibrating: Calibrating<'a>,
+    feels: FeelKeeping<'a>,
     /// The device's own description.
     hello: Hello,
     /// Whether that is still to be sent.
@@ -96,6 +98,7 @@ impl<'a> Idle<'a> {
             outbox: Outbox::new(),
             taking: Taking::nothing(),
             calibrating: Calibrating::nothing(),
+            feels: FeelKeeping::nothing(),
             hello: Hello {
                 protocol: PROTOCOL,
                 rate: 0.0,
@@ -151,6 +154,13 @@ impl<'a> Idle<'a> {
         self
     }
 
+    /// Keeps a knob's feel in flash.
+    #[must_use]
+    pub const fn keeping_feels(mut self, flash: &'a dyn Feels) -> Self {
+        self.feels.flash = Some(flash);
+        self
+    }
+
     /// One step: at most a byte each way. Call it continuously.
     pub fn step(&mut self, port: &mut impl Port, watchdog: &mut impl Watchdog) {
         feed(&mut self.heartbeat, self.mailbox, watchdog);
@@ -164,6 +174,9 @@ impl<'a> Idle<'a> {
             self.answer = Some(answer);
         }
         if let Some(answer) = self.calibrating.wait(self.mailbox) {
+            self.answer = Some(answer);
+        }
+        if let Some(answer) = self.feels.wait(self.mailbox) {
             self.answer = Some(answer);
         }
         if let Some(byte) = port.receive()
@@ -195,6 +208,7 @@ impl<'a> Idle<'a> {
                 // Another host counts from the start.
                 (self.greets, self.is_greeted, self.last) = (true, protocol == PROTOCOL, None);
                 self.calibrating.forget_answer();
+                self.feels.forget_answer();
                 if self.is_greeted {
                     self.mailbox.put(Plain::Alive);
                 }
@@ -202,6 +216,7 @@ impl<'a> Idle<'a> {
             HostMessage::Command { number, .. }
             | HostMessage::Upload { number, .. }
             | HostMessage::Calibrate { number, .. }
+            | HostMessage::KeepFeel { number, .. }
                 if !self.is_greeted =>
             {
                 self.answer = Some(Answer { number, refused: Some(Refused::Hello) });
@@ -217,6 +232,18 @@ impl<'a> Idle<'a> {
                 self.mailbox.put(Plain::Alive);
                 self.mailbox.put_order(number, &command);
                 self.awaits = Some(number);
+            }
+            // On its way: not again.
+            HostMessage::KeepFeel { .. } if self.feels.is_asked() => {}
+            HostMessage::Calibrate { number, .. } | HostMessage::Upload { number, .. } if self.feels.is_asked() => {
+                self.answer = Some(Answer { number, refused: Some(Refused::Busy) });
+            }
+            HostMessage::KeepFeel { number, keeps } => {
+                self.mailbox.put(Plain::Alive);
+                let answer = self.feels.take(number, keeps, self.mailbox);
+                if answer.is_some() {
+                    self.answer = answer;
+                }
             }
             // On its way, or done before: not again.
             HostMessage::Calibrate { .. } if self.calibrating.is_asked() => {}
@@ -270,6 +297,9 @@ impl<'a> Idle<'a> {
         }
         if let Some(reading) = self.mailbox.take_reading() {
             return Some(DeviceMessage::Reading(reading));
+        }
+        if let Some(dial) = self.mailbox.take_dial().filter(|_| self.is_greeted) {
+            return Some(DeviceMessage::Dial(Dial { kept: self.feels.kept() as u8, ..dial }));
         }
         let view = self.mailbox.take_view();
         if self.is_greeted {

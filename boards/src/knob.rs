@@ -1,7 +1,7 @@
 //! The knob of the boards: its device, how its rotor is aligned, and the table of what it feels like. The file to
 //! change first.
 
-use crate::JogSettings;
+use crate::{ChopperSettings, CurrentLimits, JogSettings};
 use palpate::device::drive::{Feed, Field, Modulation};
 use palpate::device::presets::{GIMBAL_KNOB, GIMBAL_KNOB_COMMUTATION, GIMBAL_KNOB_PROTECTION};
 use palpate::device::{CoggingMap, Device, Dial, FieldSearch, Homing, Protection, Reference, SupplyRange};
@@ -19,6 +19,12 @@ pub type KnobState = ServoState<1, KnobWitness, GuardState<1>>;
 pub const PROTECTION: Protection<1> = GIMBAL_KNOB_PROTECTION;
 /// 12 V, on a supply that neither breaks down nor is pumped up by the motor.
 pub const SUPPLY: SupplyRange = SupplyRange { min_mv: 10_000, max_mv: 14_000 };
+
+/// 10 Ω for 5 W across the supply, which a braking hand pumps up.
+pub const CHOPPER: ChopperSettings =
+    ChopperSettings { on_v: 13.4, off_v: 13.0, resistance_ohm: 10.0, continuous_w: 5.0, energy_j: 20.0 };
+/// Twice the amplitude at full duty; a tenth of a volt over 7.5 Ω is noise of dead time.
+pub const CURRENTS: CurrentLimits = CurrentLimits { max_a: 1.2, open_a: 0.06 };
 
 /// 4 kHz; stiffness and damping are the feels' own.
 pub const SETTINGS: Settings = Settings {
@@ -140,12 +146,16 @@ pub fn widths(servo: &KnobServo, state: &KnobState, modulation: &Modulation) -> 
 /// 0.23 V.
 pub const MODULATION: Modulation = Modulation { dead_fraction: 0.0125, ripple_fraction: 0.019 };
 
-/// The report of a tick over a link, with the widths in the place of duties: −32,767 to 32,767 for none to all of a
-/// period, and −32,768 for a stage that is disabled.
-pub fn report(state: &KnobState, widths: Option<[f32; 3]>, instructions: u32) -> Report {
-    let duties = match widths {
+/// The widths in the place of a report's duties: −32,767 to 32,767 for none to all of a period, and −32,768 for a stage
+/// that is disabled.
+pub fn duties(widths: Option<[f32; 3]>) -> [i16; 3] {
+    match widths {
         Some(widths) => widths.map(|width| ((width - 0.5) * 65_534.0) as i16),
         None => [i16::MIN; 3],
-    };
-    Report { duties, ..Report::new(state, instructions) }
+    }
+}
+
+/// The report of a tick over a link, with the widths in the place of duties.
+pub fn report(state: &KnobState, widths: Option<[f32; 3]>, instructions: u32) -> Report {
+    Report { duties: duties(widths), ..Report::new(state, instructions) }
 }

@@ -26,6 +26,7 @@
 //! | [`ClockCheck`] | the loop's clock against another of the chip's |
 //! | [`accept`] | another image: a board shows what it can, and drives no motor |
 //! | [`Calibrations`] | flash for what commissioning found |
+//! | [`Feels`] | flash for a knob's feel |
 //! | [`Uploads`] | memory for bodies that come over the line: RAM, and flash |
 //! | [`JogSettings`] | what may be jogged once a host sets the device up, in the servo's place |
 //! | [`arm!`] | the servo of a board with three joints and all its protection |
@@ -77,6 +78,7 @@ mod currents;
 mod delay;
 mod drives;
 pub mod exercise;
+mod feels;
 mod hold;
 mod idle;
 mod interlock;
@@ -109,7 +111,8 @@ pub use chopper::{Chopped, Chopper, ChopperSettings};
 pub use clock_check::{ClockCheck, ClocksDisagree};
 pub use currents::{CurrentFault, CurrentLimits, CurrentWatch, CurrentWatched, PhaseCurrents};
 pub use delay::{Counter, CycleDelay, cycles};
-pub use drives::{Drives, ReadBack, Switched};
+pub use drives::{Breakable, Drives, ReadBack, Switched};
+pub use feels::Feels;
 pub use hold::{Hold, Verdict};
 pub use idle::{Idle, Offers, Port, WINDOW_MS, Watchdog, heartbeat};
 pub use interlock::Interlock;

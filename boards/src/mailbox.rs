@@ -4,8 +4,9 @@ use crate::letter::Letter;
 use crate::writing::Writing;
 use core::sync::atomic::{AtomicU32, Ordering};
 use palpate::commission::Jog;
+use palpate::render::Feel;
 use palpate::scene::Command;
-use palpate::wire::{Answer, Marked, Reading, View};
+use palpate::wire::{Answer, Dial, Marked, Reading, View};
 
 /// A `static` of the board: the ticks done, for the watchdog; the commands that came; what a device that is being set
 /// up reads.
@@ -22,6 +23,10 @@ pub struct Mailbox {
     answer: Letter<2>,
     /// The longest takes 53 bytes.
     view: Letter<14>,
+    /// The longest takes 33 bytes.
+    dial: Letter<9>,
+    /// The feel that a host has set: the longest takes 127 bytes.
+    feel: Letter<32>,
     /// Whether a view is asked for.
     looks: AtomicU32,
     /// Whether flash may be written.
@@ -54,6 +59,8 @@ impl Mailbox {
             order: Letter::new(),
             answer: Letter::new(),
             view: Letter::new(),
+            dial: Letter::new(),
+            feel: Letter::new(),
             looks: AtomicU32::new(0),
             writing: Writing::new(),
         }
@@ -119,7 +126,23 @@ impl Mailbox {
         self.view.take_message()
     }
 
-    /// Chooses a feel of a table of at most 256 ([`palpate::servo::Event::Chosen`]). Call it from
+    pub(crate) fn tell_dial(&self, dial: &Dial) {
+        self.dial.put_message(dial);
+    }
+
+    pub(crate) fn take_dial(&self) -> Option<Dial> {
+        self.dial.take_message()
+    }
+
+    pub(crate) fn tell_feel(&self, feel: &Feel) {
+        self.feel.put_message(feel);
+    }
+
+    pub(crate) fn take_feel(&self) -> Option<Feel> {
+        self.feel.take_message()
+    }
+
+    /// Chooses a feel of a table of at most 255 ([`palpate::servo::Event::Chosen`]). Call it from
     /// one place only.
     pub fn choose(&self, index: u8) {
         self.commands.fetch_and(!(0xff << CHOSEN_SHIFT), Ordering::Relaxed);

@@ -6,6 +6,8 @@ from __future__ import annotations
 DIAGNOSTICS, ANGLE = 0x3FFC, 0x3FFF
 # The loop that takes offsets out has finished; the field is neither weak nor strong.
 WELL = 1 << 8 | 128
+# The field is too weak ("DIAAGC": MAGL); its gain is at its end.
+WEAK = 1 << 8 | 1 << 11 | 255
 
 
 def with_parity(frame: int) -> int:
@@ -17,6 +19,8 @@ class AngleSensor:
 
     def __init__(self) -> None:
         self.angle, self.answers = 1_000, True
+        # Its diagnostics, and whether its angle never changes.
+        self.diagnostics, self.is_frozen = WELL, False
         self.next = self.frames = 0
         # The first half of a frame, where a bus sends bytes.
         self.half: int | None = None
@@ -30,8 +34,8 @@ class AngleSensor:
         # Its last bit is never quiet. Every fourth frame: more seldom than ticks, in which it would be seen at the same
         # level each time.
         self.frames += 1
-        self.angle ^= self.frames % 4 == 0
-        self.next = with_parity({ANGLE: self.angle, DIAGNOSTICS: WELL}.get(frame & 0x3FFF, 0))
+        self.angle ^= self.frames % 4 == 0 and not self.is_frozen
+        self.next = with_parity({ANGLE: self.angle, DIAGNOSTICS: self.diagnostics}.get(frame & 0x3FFF, 0))
         return answer
 
     def exchange_byte(self, byte: int) -> int | None:

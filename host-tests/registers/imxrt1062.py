@@ -27,12 +27,17 @@ GPIO = {
     for number, base in ((1, 0x401B_8000), (2, 0x401B_C000), (3, 0x401C_0000), (4, 0x401C_4000))
 }
 IOMUXC = 0x401F_8000
+# The pad of pin 33.
+EMC_07 = 0x14 + 4 * 7
 OCOTP = Block("OCOTP", 0x401F_4000, ANA1=0x4E0)
 GPT = [Block(f"GPT{number}", base, CR=0, PR=4, CNT=0x24) for number, base in ((1, 0x401E_C000), (2, 0x401F_0000))]
 USB1 = Block("USB1", 0x402E_0000, USBCMD=0x140, ENDPTPRIME=0x1B0, ENDPTFLUSH=0x1B4)
 LPSPI4 = Block(
     "LPSPI4", 0x403A_0000, PARAM=4, CR=0x10, SR=0x14, CCR=0x40, FSR=0x5C, TCR=0x60, TDR=0x64, RSR=0x70, RDR=0x74
 )
+# What the crossbar and a fault of PWM2 need: SEL48 and SEL49, the direction of its pins, the choice of its input 9.
+XBAR1, GPR = Block("XBAR1", 0x403B_C000, SEL24=0x30), Block("IOMUXC_GPR", 0x400A_C000, GPR6=0x18)
+XBAR1_IN09 = IOMUXC + 0x430
 # Registers of 16 bits, two a word: CTRL2 and CTRL, VAL1 in the upper half, VAL3 too; FCTRL0 and FSTS0.
 PWM2 = Block(
     "PWM2", 0x403E_0000, OUTEN=0x180, MCTRL=0x188, FCTRL0=0x18C,
@@ -55,7 +60,7 @@ SET_CLEAR_TOGGLE = ((0x400D_8000, 0x400D_8200), (0x400D_9000, 0x400D_9100))
 CLOCKS = {
     PIT.base: (1, 6), LPUART6.base: (3, 3), LPSPI4.base: (1, 3), PWM2.base: (4, 9), ADC1.base: (1, 8),
     WDOG3.base: (5, 2), GPIO[1].base: (1, 13), GPIO[2].base: (0, 15), GPIO[3].base: (2, 13), GPIO[4].base: (3, 6),
-    USB1.base: (6, 0),
+    USB1.base: (6, 0), XBAR1.base: (2, 11),
 }  # fmt: skip
 # The bit of SRC_SRSR for each reason.
 REASONS = {"power": 0, "lockup": 1, "pin": 3, "watchdog": 7, "heat": 8}
@@ -69,6 +74,8 @@ class Imxrt1062(Chip):
     MEMORY = ((0, 0x8_0000), (0x2000_0000, 0x8_0000), (0x2020_0000, 0x8_0000), (0x6000_0000, 0x20_0000))
     REGISTERS = ((0x4000_0000, 0x40_0000),)
     VECTORS = 0x6000_0000
+    # The share of its reference that a good converter does not measure.
+    IMPLAUSIBLE = 0.95
     # 32 bits of the bus's clock, a quarter of the core's.
     COUNTER, COUNTER_CYCLES = GPT[0].CNT, 4
     RESET = {
@@ -99,7 +106,10 @@ class Imxrt1062(Chip):
         self.is_calibrated = False
         # The slow oscillator, as a share of what it should make.
         self.slow = 1.0
+        # What the converter measures of its own reference; whether conversions end, and the bus of the sensors its frames.
+        self.reference, self.converts, self.finishes = 4_095, True, True
         self.received, self.sent, self.answers = bytearray(), bytearray(), []
+        self.was_fault = False
         # When each submodule of PWM2 began to run, since when LDOK waits for its reload, and writes that it ignored.
         self.runs, self.waits, self.ignored = {}, {}, 0
 
@@ -129,9 +139,13 @@ class Imxrt1062(Chip):
             value = self.word(address)
         elif address == ADC1.HS:
             # COCO0: converted at once.
-            value = 1
+            value = int(self.converts)
         elif address == ADC1.R0:
-            value = self.reading()
+            # Input 25 is the reference ("ADC_HC0", VREFSH).
+            value = self.reference if self.word(ADC1.HC0) & 0x1F == 25 else self.reading()
+        elif address == PWM2.FCTRL0:
+            # FFPIN0 is the input's level, where FLVL0 says that a high one is a fault ("FSTS0").
+            value = value & ~(1 << 24) | self.has_fault() << 24
         elif address == PWM2.MCTRL:
             value = value & ~0xF | sum(1 << number for number in range(4) if self.waits_for_reload(number))
         elif any(address == PWM2.base + SUBMODULE * number for number in self.runs):
@@ -144,9 +158,9 @@ class Imxrt1062(Chip):
         elif address == LPSPI4.PARAM:
             value = 0x0404
         elif address == LPSPI4.FSR:
-            value = len(self.answers) << 16
+            value = len(self.answers) * self.finishes << 16
         elif address == LPSPI4.RSR:
-            value = 0 if self.answers else 2
+            value = 0 if self.answers and self.finishes else 2
         elif address == LPSPI4.RDR:
             value = self.answers.pop(0) if self.answers else 0
         else:
@@ -204,6 +218,22 @@ class Imxrt1062(Chip):
             assert self.word(LPSPI4.TCR) & 0xFFF == 15, "a sensor takes 16 bits"
             self.answers.append(self.exchange(value & 0xFFFF))
         return self.keep(address, value)
+
+    def has_fault(self) -> bool:
+        """Whether fault 0 of PWM2, output 49 of the crossbar ("XBARA1_SEL24"), is its input 9, that one the pad EMC_07, and
+        at the level of a fault."""
+        is_wired = self.word(XBAR1.SEL24) >> 8 & 0x7F == 9 and not self.is_lost(XBAR1.base)
+        is_input = self.word(IOMUXC + EMC_07) & 0xF == 3 and not self.word(XBAR1_IN09) & 1
+        is_input &= not self.word(GPR.GPR6) >> 25 & 1
+        return bool(is_wired and is_input and self.fault_level() == self.word(PWM2.FCTRL0) >> 12 & 1)
+
+    def ends_widths(self) -> bool:
+        """A fault ends them, and they come back by FAUTO and FFULL alone; every output listens to it after reset ("Fault
+        disable mapping")."""
+        comes_back = self.word(PWM2.FCTRL0) >> 8 & 1 and self.word(PWM2.FCTRL0) >> 20 & 1
+        self.was_fault |= self.has_fault()
+        self.was_fault &= not comes_back or self.has_fault()
+        return self.was_fault
 
     def is_counting(self) -> bool:
         """It runs freely, of the undivided bus's clock ("GPT_CR": EN, CLKSRC 1, FRR)."""

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import telemetry
-from bench import A_WHILE, HELD, HOMING, Bench
+from bench import A_WHILE, HELD, HOMING
 from machine import Machine
+from supervised import Supervised
 
 # A supply is too low once it was so for four ticks: one reading may be noise. One that is too high holds at once.
 SUPPLY_TICKS = 4
-# Ticks within which timing that cannot be supervised any more takes the force away: 2 ms.
-SUPERVISED = 8
 
 
-class InForce(Bench):
+class InForce(Supervised):
     """Force."""
 
     def ready(self) -> list[str]:
@@ -123,20 +122,18 @@ class InForce(Bench):
         self.assert_stops_within(machine, 1)
         self.assertEqual(machine.late, 0, "the tick looked at the clock again")
 
-    def test_debugger_that_detaches_leaves_ticks_supervised(self) -> None:
-        machine = self.while_driving()
-        machine.detach_debugger()
-        machine.ticks(SUPERVISED)
-        self.assertTrue(self.drives(machine), "nothing is wrong")
-        machine.late = 2 * machine.chip.PERIOD
-        self.assert_stops_within(machine, 1)
+    # The converter of the supply.
 
-    def test_counter_that_stands_still_stops_within_two_milliseconds(self) -> None:
+    def test_converter_that_measures_its_own_reference_wrong_stops_within_five_ticks(self) -> None:
+        # What is read in a tick may have been converted in the one before.
         machine = self.while_driving()
-        machine.chip.stands_since = machine.cycles
-        self.assert_stops_within(machine, SUPERVISED)
-        machine.ticks(A_WHILE)
-        self.assertEqual(self.last(machine).phase, telemetry.FAULT)
+        machine.chip.reference = round(machine.chip.reference * machine.chip.IMPLAUSIBLE)
+        self.assert_stops_within(machine, SUPPLY_TICKS + 1)
+
+    def test_conversion_that_never_ends_stops_within_five_ticks(self) -> None:
+        machine = self.while_driving()
+        machine.chip.converts = False
+        self.assert_stops_within(machine, SUPPLY_TICKS + 1)
 
     # What is broken before is not driven at all.
 

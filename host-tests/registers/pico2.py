@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from angle_sensor import AngleSensor
 from rp2350 import (
-    ADC, CLOCKS, ENABLE, IO, ISO, PADS, PAUSES, PDE, PUE, PWM, SIO, SPI0, TICKS, WATCHDOG, Rp2350,
+    CLOCKS, ENABLE, IO, ISO, PADS, PAUSES, PDE, PUE, PWM, SIO, SPI0, TICKS, WATCHDOG, Rp2350,
 )  # fmt: skip
 
 ENABLES, DIRECTIONS, SET_POINTS, SELECTS = (16,), (11, 13, 15), (10, 12, 14), (5, 6, 7)
@@ -56,9 +56,9 @@ class Pico2(Rp2350):
         """A ready line has a resistor to ground at the pin, whatever becomes of its wire."""
         return self.levels.get(pin, 0 if pin in READY else None)
 
-    def reading(self) -> int:
+    def reading(self, channel: int) -> int:
         """12 bits of 3.3 V, behind 100 kΩ and 10 kΩ, beside which the pad may pull."""
-        assert self.word(ADC.CS) >> 12 & 0xF == 0, "GP26 is input 0"
+        assert channel == 0, "GP26 is input 0"
         to_ground = 1 / (1 / 10e3 + self.pad(SUPPLY, PDE) / PULL)
         return round(self.volts * to_ground / (100e3 + to_ground) / 3.3 * 4_095)
 
@@ -85,6 +85,16 @@ class Pico2(Rp2350):
             self.sensors[int(number) - 1].answers = False
         else:
             del self.levels[{"stop": STOP, "button": BUTTON}.get(line) or READY[int(number) - 1]]
+
+    def duties(self) -> list[float]:
+        """What each bridge makes of its pins: a width, and a direction, high for ahead."""
+        driven = all(self.enable_lines())
+        shares = [width / (self.word(getattr(PWM, f"CH{slice}_TOP")) + 1) for width, slice in zip(self.widths(), SLICES)]
+        return [driven * share * (1 if self.level(way) else -1) for share, way in zip(shares, DIRECTIONS)]
+
+    def turn_encoder(self, channel: int, counts: int) -> None:
+        """A sensor's angle, from that of the pose."""
+        self.sensors[channel].angle = (1_000 + counts) % 16_384
 
     def short_enable(self) -> None:
         """Something holds the enable line high."""

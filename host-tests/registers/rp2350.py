@@ -57,6 +57,8 @@ SPI_FUNCTION, UART_FUNCTION, PWM_FUNCTION, SIO_FUNCTION, NULL = 1, 2, 4, 5, 0x1F
 PDE, PUE, IE, OD, ISO = 2, 3, 6, 7, 8
 # Bits of the watchdog's CTRL; those that pause it under a debugger.
 ENABLE, PAUSES = 30, 0b111 << 24
+# Bits of the converter's CS.
+TS_EN, START_ONCE = 1, 2
 # Which bit of RESETS holds which peripheral ("Subsystem resets").
 HELD = {
     ADC.base: 0, IO.base: 6, PADS.base: 9, PLL_SYS.base: 14, PLL_USB.base: 15, PWM.base: 16, SPI0.base: 18,
@@ -82,6 +84,8 @@ class Rp2350(Chip):
     MEMORY = ((0x1000_0000, 0x40_0000), (0x2000_0000, 0x8_2000), (USB_MEMORY, 0x1000))
     REGISTERS = ((0x4000_0000, 0x12_0000), (USB, 0x4000), (0xD000_0000, 0x1000))
     VECTORS = 0x1000_0000
+    # The share of its temperature sensor that a good converter does not measure.
+    IMPLAUSIBLE = 0.6
     # Of 64 bits the lower 32, of clk_sys ("TIMER: SOURCE").
     COUNTER = TIMER0.TIMERAWL
     # Pins that anybody reads.
@@ -124,8 +128,10 @@ class Rp2350(Chip):
         self.keep(POWMAN.CHIP_RESET, self.chip_reset)
         self.keep(WATCHDOG.REASON, sum(BY_WATCHDOG.get(reason, 0) for reason, is_so in reasons.items() if is_so))
         self.received, self.sent, self.answers = bytearray(), bytearray(), []
-        # The ring oscillator, as a share of what it usually makes.
-        self.slow = 1.0
+        # The ring oscillator, as a share of what it usually makes; whether the sensors' bus ends its frames.
+        self.slow, self.finishes = 1.0, True
+        # What the converter measures of the temperature sensor, 0.706 V of 3.3 V; whether conversions end.
+        self.reference, self.converts = round(0.706 / 3.3 * 4_095), True
 
     def is_lost(self, address: int) -> bool:
         """A peripheral that is held in reset takes nothing and gives nothing."""
@@ -164,9 +170,7 @@ class Rp2350(Chip):
             value = 1
         elif address == ADC.CS:
             # READY: converted at once.
-            value |= 1 << 8
-        elif address == ADC.RESULT:
-            value = self.reading()
+            value |= self.converts << 8
         elif address == UART0.FR:
             # TXFE; RXFE unless something waits.
             value = 1 << 7 | (not self.received) << 4
@@ -174,7 +178,7 @@ class Rp2350(Chip):
             value = self.received.pop(0) if self.received else 0
         elif address == SPI0.SSPSR:
             # TFE, TNF; RNE while an answer waits. It is never busy: a byte goes at once.
-            value = 3 | bool(self.answers) << 2
+            value = 3 | (self.finishes and bool(self.answers)) << 2
         elif address == SPI0.SSPDR:
             value = self.answers.pop(0) if self.answers else 0
         elif address == SIO.GPIO_IN:
@@ -203,6 +207,11 @@ class Rp2350(Chip):
             self.pads[pin] = self.pads[pin] | 1 << ISO if value >> ISO & 1 else value
         elif address in (WATCHDOG.SCRATCH0, WATCHDOG.SCRATCH1):
             self.scratch[address] = value
+        elif address == ADC.CS and value >> START_ONCE & 1 and self.converts:
+            # Input 4 is the temperature sensor, where there are four pins, if TS_EN is up ("ADC: Channels").
+            is_sensor = value >> 12 & 0xF == 4
+            self.keep(ADC.RESULT, self.reference * (value >> TS_EN & 1) if is_sensor else self.reading(value >> 12 & 0xF))
+            value &= ~(1 << START_ONCE)
         elif address == PWM.INTR:
             # Flags are cleared by writing 1.
             value = self.word(address) & ~value

@@ -55,13 +55,14 @@ def python() -> Path:
     return found
 
 
-def build(names: list[str], folder: Path) -> None:
-    """Builds these images into a folder; of each the newest, for there is more than one way to a compiler."""
+def build(names: list[str], folder: Path, instead: tuple[str, ...] = ()) -> None:
+    """Builds these images into a folder, by other words `instead` of their own; of each the newest, for there is more than
+    one way to a compiler."""
     tool = [ROOT / os.environ["PALPATE_TOOL"]] if "PALPATE_TOOL" in os.environ else ["cargo", "palpate"]
     folder.mkdir(parents=True, exist_ok=True)
     for name in names:
         board, file_name, words = IMAGES[name]
-        run(*tool, "firmware", "--board", board, *words, cwd=ROOT)
+        run(*tool, "firmware", "--board", board, *(instead or words), cwd=ROOT)
         made = TARGET.glob(f"firmware/*/thumb*/release/{file_name}")
         shutil.copy(max(made, key=lambda file: file.stat().st_mtime), folder / name)
 

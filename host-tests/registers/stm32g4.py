@@ -17,8 +17,8 @@ RCC = Block(
 FLASH = Block("FLASH", 0x4002_2000, ACR=0, ECCR=0x18, OPTR=0x20)
 # Bits of ECCR: a word beyond mending, of the second bank.
 ECCD, BK_ECC = 1 << 31, 1 << 21
-# Bits of the option bytes: two banks; parity of SRAM is not checked.
-DBANK, SRAM_PE = 1 << 22, 1 << 24
+# Bits of the option bytes: two banks; start in the second; parity of SRAM is not checked.
+DBANK, BFB2, SRAM_PE = 1 << 22, 1 << 20, 1 << 24
 PWR = Block("PWR", 0x4000_7000, CR1=0, CR2=4, CR3=8, SR2=0x14, CR5=0x80)
 GPIO = {
     port: Block(
@@ -48,13 +48,14 @@ USART2 = Block("USART2", 0x4000_4400, CR1=0, BRR=0xC, ISR=0x1C, RDR=0x24, TDR=0x
 SPI1 = Block("SPI1", 0x4001_3000, CR1=0, CR2=4, SR=8, DR=0xC)
 DBGMCU = Block("DBGMCU", 0xE004_2000, APB1FZR1=8, APB2FZR=0x10)
 IWDG = Block("IWDG", 0x4000_3000, KR=0, PR=4, RLR=8, SR=0xC, WINR=0x10)
-ADC1 = Block(
-    "ADC1", 0x5000_0000, ISR=0, CR=8, CFGR=0xC, SMPR2=0x18, SQR1=0x30, DR=0x40, JSQR=0x4C, JDR1=0x80, CCR=0x308
+ADC1, ADC2 = (
+    Block(name, base, ISR=0, CR=8, CFGR=0xC, SMPR2=0x18, SQR1=0x30, DR=0x40, JSQR=0x4C, JDR1=0x80, JDR2=0x84, CCR=0x308 - at)
+    for name, base, at in (("ADC1", 0x5000_0000, 0), ("ADC2", 0x5000_0100, 0x100))
 )
 # Hz; what starts the watchdog, opens its registers and feeds it ("IWDG key register").
 HSI, LSI, STARTS, OPENS, FEEDS = 16e6, 32_000, 0xCCCC, 0x5555, 0xAAAA
 # Bits of a converter's orders ("ADC control register").
-ADEN, ADDIS, ADSTART, ADCAL, ADVREGEN, JAUTO = 0, 1, 2, 31, 28, 25
+ADEN, ADDIS, ADSTART, JADSTART, ADCAL, ADVREGEN, JAUTO = 0, 1, 2, 3, 31, 28, 25
 
 # The bit of RCC_CSR for each reason; the pin's own is always up.
 REASONS = {"power": 27, "software": 28, "watchdog": 29, "window": 30}
@@ -89,6 +90,8 @@ class Stm32g4(Chip):
     MEMORY = ((0x0800_0000, 0x8_0000), (0x1000_0000, 0x8000), (0x2000_0000, 0x2_0000))
     REGISTERS = ((0x4000_0000, 0x3_0000), (0x4200_0000, 0x60_0000), (0x4800_0000, 0x2000), (0x5000_0000, 0x10_0000))
     VECTORS = 0x0800_0000
+    # The share of its reference that a good converter does not measure.
+    IMPLAUSIBLE = 0.8
     # 32 bits of a timer's clock, which is the core's.
     COUNTER = TIM5.CNT
     RESET = {
@@ -107,6 +110,7 @@ class Stm32g4(Chip):
         IWDG.RLR: 0xFFF,
         IWDG.WINR: 0xFFF,
         ADC1.CR: 0x2000_0000,
+        ADC2.CR: 0x2000_0000,
         **{port.MODER: 0xFFFF_FFFF for port in GPIO.values()},
         GPIO["A"].MODER: 0xABFF_FFFF,
         GPIO["B"].MODER: 0xFFFF_FEBF,
@@ -124,8 +128,8 @@ class Stm32g4(Chip):
         self.received, self.sent, self.answers = bytearray(), bytearray(), bytearray()
         # What the converter measures of its own reference, 1.212 V of 3.3 V; whether conversions end.
         self.reference, self.converts = round(1.212 / 3.3 * 4_095), True
-        # The slow oscillator, as a share of what it should make.
-        self.slow = 1.0
+        # The slow oscillator, as a share of what it should make; whether the sensor's bus ends its frames.
+        self.slow, self.finishes = 1.0, True
         # What has failed of what SYSCFG connects to the break.
         self.failures = 0
         # Whether the break works, and pins that something outside holds high.
@@ -171,7 +175,7 @@ class Stm32g4(Chip):
             value = self.received.pop(0)
         elif address == SPI1.SR:
             # TXE; RXNE while an answer waits; how many wait, two bits. It is never busy: a byte goes at once.
-            value = 2 | bool(self.answers) | min(len(self.answers), 3) << 9
+            value = 2 | (self.finishes and bool(self.answers)) | min(len(self.answers), 3) << 9
         elif address == SPI1.DR:
             value = int.from_bytes(bytes(self.take_answer() for _ in range(self.machine.width)), "little")
         elif address in (IWDG.SR, PWR.SR2):
@@ -210,14 +214,16 @@ class Stm32g4(Chip):
         elif address in (timer.ARR for timer in TIMERS if timer not in (TIM2, TIM5)):
             # 16 bits, and four of a fraction that is not used.
             value &= 0xF_FFFF
-        elif address == ADC1.CR:
+        elif address in (ADC1.CR, ADC2.CR):
             # Writing 0 takes back no order, and each is carried out at once: ADDIS ends ADEN, ADSTART brings EOC and
-            # EOS, with JAUTO JEOC and JEOS too, ADSTP and ADCAL are over. ADRDY follows ADEN.
+            # EOS, with JAUTO JEOC and JEOS too, as JADSTART does, ADSTP and ADCAL are over. ADRDY follows ADEN.
+            converter = ADC1 if address == ADC1.CR else ADC2
             is_on = not value >> ADDIS & 1 and (value | self.word(address)) & 1
-            comes = (0b110_1100 if self.word(ADC1.CFGR) >> JAUTO & 1 else 0b1100) if self.converts else 0
-            self.keep(ADC1.ISR, self.word(ADC1.ISR) & ~1 | is_on | (comes if value >> ADSTART & 1 else 0))
+            starts = value >> ADSTART & 1, value >> JADSTART & 1 or value >> ADSTART & self.word(converter.CFGR) >> JAUTO & 1
+            comes = sum(bits for bits, start in zip((0b1100, 0b110_0000), starts) if start and self.converts)
+            self.keep(converter.ISR, self.word(converter.ISR) & ~1 | is_on | comes)
             value = value & 0x7FFF_FFC0 | is_on
-        elif address == ADC1.ISR:
+        elif address in (ADC1.ISR, ADC2.ISR):
             # Flags are cleared by writing 1.
             value = self.word(address) & ~value
         elif address in (IWDG.PR, IWDG.RLR, IWDG.WINR) and self.word(IWDG.KR) & 0xFFFF != OPENS:

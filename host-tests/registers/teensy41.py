@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from angle_sensor import AngleSensor
-from imxrt1062 import EN, FEED, GPIO, IOMUXC, LOW_POWER, LPSPI4, PIT, PWM2, SNVS, WDOG3, Imxrt1062
+from imxrt1062 import EMC_07, EN, FEED, GPIO, IOMUXC, LOW_POWER, LPSPI4, PIT, PWM2, SNVS, WDOG3, Imxrt1062
 
 # Pins: port, bit, and the place of their pad among all of them (EMC, AD_B0, AD_B1, B0, B1 and so on).
 AD_B1, EMC, B0, B1 = 0xFC, 0x14, 0x13C, 0x17C
@@ -44,6 +44,8 @@ class Teensy41(Imxrt1062):
         _, self.volts, _ = self.SUPPLY_RANGE
         self.levels = {STOP: 0, **{line: 1 for line in READY}}
         self.sensors = [AngleSensor() for _ in SELECTS]
+        # The level that a stop loop gives pin 33, if there is one.
+        self.fault_loop: int | None = None
         # What the sensors' data line reads where nobody drives it.
         self.silence = 0xFFFF
 
@@ -79,6 +81,10 @@ class Teensy41(Imxrt1062):
         pad = PADS.get((port, bit))
         is_blind = self.word(GPIO[port].GDIR) >> bit & 1 and (pad is None or not self.word(IOMUXC + pad) >> 4 & 1)
         return 0 if is_blind else self.level(port, bit)
+
+    def fault_level(self) -> int:
+        """Of pin 33: what the stop loop makes of it, or its pull."""
+        return self.fault_loop if self.fault_loop is not None else int(self.word(IOMUXC + EMC_07 + TO_PULLS) >> 14 & 3 != 0)
 
     def short_enable(self) -> None:
         """Something holds the first enable line high."""
@@ -119,7 +125,8 @@ class Teensy41(Imxrt1062):
 
     def widths(self) -> list[float]:
         """The set-points, as shares: a submodule counts from 0 to VAL1."""
-        return [(self.word(width) >> 16) / ((self.word(most) >> 16) + 1) for width, most in WIDTHS]
+        on = not self.ends_widths()
+        return [on * (self.word(width) >> 16) / ((self.word(most) >> 16) + 1) for width, most in WIDTHS]
 
     def spoil_widths(self) -> None:
         """Leaves others there."""

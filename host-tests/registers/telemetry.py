@@ -9,7 +9,7 @@ from dataclasses import dataclass
 HELLO, RECORD = 0, 1
 POWER_ON, PIN, SOFTWARE, WATCHDOG, BROWN_OUT, PANIC, EXCEPTION, TOOL = 0, 1, 2, 3, 4, 6, 7, 8
 CALIBRATE, ARMED, RUNNING, FAULT = 1, 2, 3, 4
-LINK_LOST = 8
+FRAME_LOST, LINK_LOST, DRIVE, MAGNET, FROZEN = 1, 8, 12, 21, 22
 STOP, NOT_READY, SUPPLY, RELEASE_FIRST = 1, 2, 4, 8
 VARIABLE = ("tick", "number", "clock", "began", "shortest", "longest", "took", "dropped")
 

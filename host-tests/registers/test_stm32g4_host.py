@@ -11,7 +11,8 @@ from in_set_up import InSetUp
 from machine import NMI, Machine
 from nucleo import Nucleo
 from on_stack import OnStack
-from stm32g4 import BK_ECC, DBANK, ECCD, FLASH
+from stm32g4 import BFB2, BK_ECC, DBANK, ECCD, FLASH
+from supervised import Supervised
 from with_host import WithHost
 from with_wiring import WithWiring
 
@@ -20,7 +21,7 @@ BANK_2, BANK_SIZE = 0x0804_0000, 0x4_0000
 CALIBRATION = BANK_2 + BANK_SIZE - 0x800
 
 
-class Stm32g4WithHost(WithHost, InSetUp, OnStack, AtStops, WithWiring, unittest.TestCase):
+class Stm32g4WithHost(WithHost, Supervised, InSetUp, OnStack, AtStops, WithWiring, unittest.TestCase):
     BOARD, NAME = Nucleo, "stm32g4_host"
 
     # Erasing a page of flash takes up to 25 ms.
@@ -43,6 +44,18 @@ class Stm32g4WithHost(WithHost, InSetUp, OnStack, AtStops, WithWiring, unittest.
             machine.exception(NMI)
         machine.set_up()
         return machine
+
+    def test_chip_that_starts_in_its_second_bank_keeps_nothing_there(self) -> None:
+        for options, reads in ((DBANK, True), (DBANK | BFB2, False), (0, False)):
+            machine, read = self.new_machine(), []
+            machine.unicorn.mem_write(BANK_2, b"\xff" * BANK_SIZE)
+            machine.reset(power=True)
+            machine.chip.keep(FLASH.OPTR, options)
+            machine.unicorn.hook_add(
+                unicorn.UC_HOOK_MEM_READ, lambda *_, read=read: read.append(_), begin=BANK_2, end=BANK_2 + BANK_SIZE - 1
+            )
+            machine.set_up()
+            self.assertEqual(bool(read), reads)
 
     def test_calibration_that_cannot_be_read_keeps_the_motors_off(self) -> None:
         self.assertTrue(self.drive_again(self.began_with(is_damaged=False)), "none is kept: as it was built")

@@ -7,18 +7,30 @@ import unittest
 import telemetry
 from at_resets import AtResets
 from at_stops import AtStops
-from bench import OF_PANIC
+from bench import A_WHILE, OF_PANIC, Bench
 from imxrt1062 import EN, LPSPI4, PWM2, RCS, UPDATE, WDOG3
 from in_set_up import InSetUp
+from machine import Machine
 from on_stack import OnStack
 from teensy41 import Teensy41
 from with_angle_sensors import WithAngleSensors
 
 
+def assert_stopped_in_set_up(test: Bench, machine: Machine) -> None:
+    """It panicked before anything of the motors was touched, except to take their power."""
+    test.assert_memo(machine, OF_PANIC)
+    test.assertEqual(machine.unmasked(), [])
+    of_motors = [entry for entry in machine.log.entries if machine.chip.is_of_motors(entry)]
+    test.assertEqual([entry for entry in of_motors if not machine.chip.is_of_enables(entry)], [])
+
+
 class Teensy(InSetUp, OnStack, WithAngleSensors, AtResets, AtStops, unittest.TestCase):
     BOARD, NAME = Teensy41, "teensy41"
-    # The start of its runtime leaves no place for it.
-    TESTED = 0
+    # The run time copies its code first.
+    TESTED = 3_000_000
+
+    def assert_did_not_start(self, machine: Machine) -> None:
+        assert_stopped_in_set_up(self, machine)
 
     def test_watchdog_takes_its_configuration_which_is_read_back(self) -> None:
         machine = self.after_set_up()
@@ -76,6 +88,27 @@ class Teensy(InSetUp, OnStack, WithAngleSensors, AtResets, AtStops, unittest.Tes
         self.assertEqual(log.value(PWM2.FCTRL0, enabled) >> 12 & 0xF, 0xF)
         before = [entry.written for entry in log.writes(PWM2.FCTRL0) if entry.index < enabled]
         self.assertIn(0xF, [written >> 16 & 0xF for written in before])
+
+    def test_stop_loop_at_the_fault_input_ends_the_set_points_between_two_ticks(self) -> None:
+        machine = self.while_driving()
+        self.assertTrue(all(machine.chip.widths()))
+        machine.chip.fault_loop = 1
+        self.assertEqual(machine.chip.widths(), [0, 0, 0])
+        machine.ticks(1)
+        self.assertFalse(self.drives(machine))
+        machine.chip.fault_loop = 0
+        machine.ticks(A_WHILE)
+        self.assertTrue(self.drives(machine), "a pulse that is over")
+        machine.chip.fault_loop = 1
+        machine.ticks(A_WHILE)
+        machine.chip.fault_loop = None
+        machine.ticks(A_WHILE)
+        self.assertFalse(self.drives(machine))
+        self.assertEqual(self.last(machine).fault, telemetry.DRIVE)
+
+    def test_fault_input_without_a_wire_is_pulled_down(self) -> None:
+        chip = self.after_set_up().chip
+        self.assertEqual((chip.fault_level(), chip.has_fault()), (0, False))
 
     def test_sensors_bus_is_in_mode_1(self) -> None:
         # CPOL and CPHA ("LPSPI_TCR").

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import telemetry
+from angle_sensor import WEAK
+from bench import A_WHILE
 from in_force import InForce
 
 # The sensor's data sheet, "SPI timing", s: from the select line's fall to the first clock, and high between two
@@ -12,6 +14,8 @@ SET_UP, HIGH, CLOCK, POWER_UP = 350e-9, 350e-9, 10e6, 10e-3
 TICKS = 8
 # Two bad frames in a row are bridged.
 BRIDGED = 2
+# Equal readings after which a sensor is frozen.
+FROZEN = 1_000
 
 
 class WithAngleSensors(InForce):
@@ -75,6 +79,34 @@ class WithAngleSensors(InForce):
             self.assertTrue(self.drive_again(machine), "zero is an angle")
             machine.chip.break_line(f"sensor {number + 1}")
             self.assert_stops_within(machine, BRIDGED + 1)
+
+    def test_magnet_that_falls_off_stops_in_the_fourth_tick(self) -> None:
+        for number in range(self.BOARD.SENSORS):
+            machine = self.while_driving()
+            machine.chip.sensors[number].diagnostics = WEAK
+            # The diagnostics of a reading come with the next.
+            self.assert_stops_within(machine, BRIDGED + 2)
+            machine.ticks(A_WHILE)
+            self.assertEqual(self.last(machine).fault, telemetry.MAGNET)
+
+    def test_frozen_sensor_stops_within_a_quarter_of_a_second(self) -> None:
+        for number in range(self.BOARD.SENSORS):
+            machine = self.while_driving()
+            machine.chip.sensors[number].is_frozen = True
+            machine.ticks(FROZEN // 2)
+            self.assertTrue(self.drives(machine), "a joint is held still for as long")
+            self.assert_stops_within(machine, FROZEN // 2 + BRIDGED + 2)
+            machine.ticks(A_WHILE)
+            self.assertEqual(self.last(machine).fault, telemetry.FROZEN)
+
+    def test_bus_that_never_ends_a_frame_stops_in_the_third_tick_and_no_tick_is_long(self) -> None:
+        machine = self.while_driving()
+        machine.chip.finishes = False
+        self.assert_stops_within(machine, BRIDGED + 1)
+        machine.ticks(A_WHILE)
+        record = self.last(machine)
+        self.assertEqual(record.fault, telemetry.FRAME_LOST)
+        print(f"{self.NAME}: a bus that never ends a frame: a tick of at least {record.took / record.clock * 1e6:.0f} µs")
 
     def test_silent_sensor_at_power_on_keeps_force_away(self) -> None:
         machine = self.new_machine()

@@ -7,6 +7,7 @@ What is expected comes of the file and the arm's geometry, by none of the projec
 from __future__ import annotations
 
 import math
+import os
 import tomllib
 from pathlib import Path
 
@@ -14,7 +15,8 @@ import telemetry
 from bench import A_WHILE, Bench
 from machine import Machine
 
-DEVICE = tomllib.loads(Path(__file__).with_name("swapped.toml").read_text())
+FILE = Path(os.environ.get("PALPATE_WIRED", Path(__file__).with_name("swapped.toml")))
+DEVICE = tomllib.loads(FILE.read_text())
 JOINTS, ARM = DEVICE["joint"], DEVICE["mechanism"]
 # rad a tick: 8 rad/s at 4 kHz, well below what is taken for a jump.
 SLOW = 0.002

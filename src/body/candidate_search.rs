@@ -8,6 +8,7 @@ use super::pole::Pole;
 use super::quadratic_model::{DistanceDerivatives, Model};
 use crate::field::{Displaced, Displacement, Rigid};
 use crate::math::{Vec3, saturate, sqrt_from_above};
+use crate::patch::ALL_KINDS;
 use crate::patch::{Patch as _, ShapeBounds, SplinePatch};
 
 /// Maximum evaluations of one candidate of a list.
@@ -89,7 +90,7 @@ impl CandidateSearch {
     /// One evaluation, and the choice of the next parameters. `known` is the `φ` to beat, m²; `size` is the body's,
     /// metres; `poles` as of [`super::Face::poles`].
     pub fn step(&mut self, patch: &SplinePatch, poles: u8, probe: Vec3, known: f32, size: f32) -> CandidateStatus {
-        self.step_on(Displaced { rest: patch, by: Rigid }, poles, probe, known, size)
+        self.step_on(Displaced { rest: patch, by: Rigid::<ALL_KINDS> }, poles, probe, known, size)
     }
 
     /// The same on a displaced patch.

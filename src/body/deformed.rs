@@ -52,6 +52,9 @@ impl<D: Displacement> Body<'_, D> {
 
     #[inline(always)]
     pub(super) fn on_edge(&self, edge: &Edge, t: f32) -> CurvePoint {
+        if self.by.is_rest() {
+            return edge.curve.evaluate(t);
+        }
         let mut at = edge.curve.evaluate(t);
         self.by.displace_curve(&mut at.point, &mut at.tangent, &mut at.half_second);
         at

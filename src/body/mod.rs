@@ -26,6 +26,7 @@ mod soft;
 mod table;
 mod table_words;
 mod tick_bound;
+pub mod tick_cost;
 mod tracker;
 
 pub use candidate_search::{

@@ -6,6 +6,7 @@ use super::table::Body;
 use super::tracker::{BodyStep, BodyWitness};
 use crate::field::{Displacement, Field, MAX_MODES, Mode};
 use crate::math::Vec3;
+use crate::patch::Patch as _;
 use crate::track::{Contact, Controller, Probe};
 use core::fmt;
 
@@ -56,6 +57,15 @@ pub enum SoftError {
         /// Its index.
         mode: u8,
     },
+    /// The motions are not as many as the modes.
+    Motions,
+    /// A motion has a negative or infinite number, no stiffness, or more than 256 radians a tick.
+    Motion {
+        /// Its index.
+        mode: u8,
+    },
+    /// The loop's rate, stiffness, damping or maximum force is no number.
+    Settings,
 }
 
 impl fmt::Display for SoftError {
@@ -65,6 +75,13 @@ impl fmt::Display for SoftError {
             Self::Mode { mode } => {
                 write!(formatter, "modes: mode {mode} has a negative or infinite number; bake it again")
             }
+            Self::Motions => write!(formatter, "motions: not as many as modes; give one for each"),
+            Self::Motion { mode } => write!(
+                formatter,
+                "motions: mode {mode} has a negative or infinite number, no stiffness, or is too fast; leave it out, \
+                 or give it no mass"
+            ),
+            Self::Settings => write!(formatter, "settings: rate, stiffness, damping or force is no number"),
         }
     }
 }
@@ -87,6 +104,8 @@ pub struct SoftStep {
     pub body: BodyStep,
     /// Whether a `q` was beyond its mode's limit or not a number, and was saturated.
     pub is_clamped: bool,
+    /// [`Body::is_too_deep`] of the displaced body.
+    pub is_too_deep: bool,
 }
 
 impl<'a> Soft<'a> {
@@ -149,7 +168,19 @@ impl<'a> Soft<'a> {
         }
         let mut step = body.step(controller, &mut state.body, probe, period_s);
         step.evaluations += evaluations;
-        SoftStep { body: step, is_clamped: !field.holds(q) }
+        let is_too_deep = state.body.contact == Contact::Touching && body.is_too_deep(&state.body);
+        SoftStep { body: step, is_clamped: !field.holds(q), is_too_deep }
+    }
+
+    /// The place of the witness point on the body at rest, metres: the material point.
+    pub fn material_point(&self, state: &SoftWitness) -> Vec3 {
+        let [u, v] = state.body.witness.parameters;
+        let found = match state.body.feature {
+            Feature::Face(index) => self.rest.faces.get(usize::from(index)).map(|face| face.patch.evaluate(u, v).point),
+            Feature::Edge(index) => self.rest.edges.get(usize::from(index)).map(|edge| edge.curve.point(u)),
+            Feature::Vertex(index) => self.rest.vertices.get(usize::from(index)).map(|vertex| vertex.point),
+        };
+        found.unwrap_or(Vec3::ZERO)
     }
 
     /// [`Body::locate`] on the body at some `q`, metres.

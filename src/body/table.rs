@@ -248,7 +248,7 @@ impl<'a> BodyTables<'a> {
     }
 }
 
-impl<'a> Body<'a> {
+impl<'a, const KINDS: u32> Body<'a, Rigid<KINDS>> {
     /// The same body with another baked CRC, which the servo loop compares with flash (see
     /// [`crate::servo::Safety::checks_tables`]); [`BodyTables::checked`] sets it. 0 is no CRC: one body in 2³² is not
     /// checked.
@@ -268,6 +268,41 @@ impl<'a> Body<'a> {
     /// The effort in each tick.
     pub const fn effort(&self) -> Effort {
         self.effort
+    }
+
+    /// The kinds of its patches ([`crate::patch::Kinds::MASK`]).
+    pub const fn kinds(&self) -> u32 {
+        let (mut kinds, mut index) = (0, 0);
+        while index < self.faces.len() {
+            kinds |= self.faces[index].patch.kind();
+            index += 1;
+        }
+        kinds
+    }
+
+    /// The same body as one of these kinds of patches only: an image then holds no code for others.
+    ///
+    /// # Panics
+    /// At compile time, if a patch is of another kind.
+    #[must_use]
+    pub const fn of_kinds<const OF: u32>(self) -> Body<'a, Rigid<OF>> {
+        assert!(self.kinds() & !OF == 0, "kinds: a face is of another kind; take `kinds()` of this body");
+        let Self { faces, edges, vertices, spokes, locator, size, sure_from, has_poles, has_smooth_edges, .. } = self;
+        let (baked_crc, effort) = (self.baked_crc, self.effort);
+        Body {
+            faces,
+            edges,
+            vertices,
+            spokes,
+            locator,
+            size,
+            sure_from,
+            has_poles,
+            has_smooth_edges,
+            baked_crc,
+            effort,
+            by: Rigid,
+        }
     }
 
     /// The CRC-32 that the tables had when they were baked.

@@ -9,6 +9,7 @@ use super::curve::SplineCurve;
 use super::feature::{Edge, EdgeFace, Separator, Side, Spoke, Vertex};
 use super::locator::Locator;
 use super::table::Body;
+use crate::field::Rigid;
 use crate::math::Vec3;
 use crate::patch::{coefficient_word, crc32};
 use crate::track::Contact;
@@ -43,7 +44,7 @@ const fn at<T>(slice: &[T], index: usize) -> Option<&T> {
     if index < slice.len() { Some(&slice[index]) } else { None }
 }
 
-impl Body<'_> {
+impl<const KINDS: u32> Body<'_, Rigid<KINDS>> {
     /// The word at a cursor; `None` past the end of its record, and of the table.
     pub const fn table_word(&self, cursor: TableCursor) -> Option<u32> {
         let word = cursor.word as usize;

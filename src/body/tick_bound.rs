@@ -3,34 +3,42 @@
 use super::audit::MAX_EVALUATIONS_IN_AUDIT;
 use super::feature::{Edge, EdgeFace, EdgeKind, Face, Separator, Side, Spoke, Vertex};
 use super::table::Body;
+use super::tick_cost as cost;
+use crate::field::Rigid;
 use crate::math::Vec3;
 use crate::tally::TickWork;
 
 /// Maximum number of spokes of a vertex: the only list of a body that a tick walks from its start to its end.
 pub const MAX_SPOKES: usize = 64;
 
-/// Limit of the work of a tick that an application grants a body, see [`Body::worst_tick`].
+/// Limit of the work of a tick that an application grants a body, see [`Body::fitted`].
 ///
 /// ```
 /// use palpate::body::TickLimit;
 ///
-/// // A slower core, or a higher rate.
-/// const LIMIT: TickLimit = TickLimit { evaluations: 64 };
-/// assert!(LIMIT.evaluations < TickLimit::BENCH.evaluations);
+/// // A core of 170 MHz at 4 kHz: three quarters of 42,500 cycles.
+/// assert_eq!(TickLimit::of_period(170_000_000, 4_000).cycles, 31_875);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TickLimit {
     /// Evaluations of patches, curves and spokes in one tick.
     pub evaluations: u32,
+    /// Modelled cycles of the whole tick ([`Body::worst_cycles`]).
+    pub cycles: u32,
 }
 
 impl TickLimit {
-    /// The limit of the bench boards: evaluations of the highest degree then fit a period of 250 µs on a Cortex-M4F at
-    /// 170 MHz, together with the rest of the tick.
-    pub const BENCH: Self = Self { evaluations: 256 };
+    /// Three quarters of the period of a core's clock at this rate. The rest is for the sensors' frames (six of 3 µs
+    /// on the Pico 2), interrupts of the host's line, and memory that the model has without wait states.
+    pub const fn of_period(clock_hz: u32, rate_hz: u32) -> Self {
+        Self { evaluations: 256, cycles: clock_hz / rate_hz / 4 * 3 }
+    }
+
+    /// The limit of the bench boards: that of the slowest of them, the Pico 2 with 150 MHz, at 4 kHz.
+    pub const BENCH: Self = Self::of_period(150_000_000, 4_000);
     /// No limit but that of any tables, for a host.
-    pub const NONE: Self = Self { evaluations: u32::MAX };
+    pub const NONE: Self = Self { evaluations: u32::MAX, cycles: u32::MAX };
 }
 
 /// Work that a tick may spend: part of the configuration ([`Body::with_effort`]) and of [`Body::worst_tick`]. Below 1
@@ -56,9 +64,27 @@ pub struct Effort {
 impl Effort {
     /// One of each.
     pub const ONE: Self = Self { steps: 1, candidates: 1 };
-    /// The effort of the bench boards, and the default of a body: at 4 kHz at most a third of their period on a body
-    /// of bicubic faces.
+    /// The effort of the bench boards, and the default of a body.
     pub const BENCH: Self = Self { steps: 4, candidates: 8 };
+
+    /// The lower of two, number by number.
+    #[must_use]
+    pub const fn min(self, other: Self) -> Self {
+        Self {
+            steps: if other.steps < self.steps { other.steps } else { self.steps },
+            candidates: if other.candidates < self.candidates { other.candidates } else { self.candidates },
+        }
+    }
+
+    /// The next lower effort of a body that does not fit; `None` below [`Self::ONE`].
+    const fn less(self) -> Option<Self> {
+        let Self { steps, candidates } = self;
+        match (steps, candidates) {
+            (0..=1, 0..=1) => None,
+            _ if candidates > 1 && candidates >= steps => Some(Self { steps, candidates: candidates / 2 }),
+            _ => Some(Self { steps: steps / 2, candidates }),
+        }
+    }
 }
 
 /// The worst tick on a body.
@@ -77,6 +103,10 @@ impl WorstTick {
     }
 }
 
+const fn larger(one: u32, other: u32) -> u32 {
+    if other > one { other } else { one }
+}
+
 const NO_WORK: TickWork = TickWork { patches: 0, curves: 0, spokes: 0 };
 const PATCH: TickWork = TickWork { patches: 1, ..NO_WORK };
 
@@ -93,7 +123,7 @@ const fn or(one: TickWork, other: TickWork, weights: TickWork) -> TickWork {
     if other.weighed(weights) > one.weighed(weights) { other } else { one }
 }
 
-impl Body<'_> {
+impl<const KINDS: u32> Body<'_, Rigid<KINDS>> {
     /// Bound of the work of every tick ([`Body::step`] with the default controller), proved for these tables: the sum of
     /// the evaluations, each with its weight ([`TickWork::EACH`] counts evaluations). A first-order law adds
     /// [`Integrator::evaluations`](crate::track::Integrator::evaluations) less one.
@@ -105,10 +135,15 @@ impl Body<'_> {
     /// # static FILE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/boards/bodies/capped_box.palp")));
     /// # let (mut faces, mut edges) = ([Face::VACANT; 6], [Edge::VACANT; 12]);
     /// # let body = Body::from_bytes(&FILE.0, BodyBuffer { faces: &mut faces, edges: &mut edges })?;
-    /// assert!(body.worst_tick(TickWork::EACH).cost <= TickLimit::BENCH.evaluations);
+    /// assert!(body.worst_tick(TickWork::EACH).cost <= TickLimit::BENCH.evaluations && body.fits(TickLimit::BENCH));
     /// # Ok::<(), palpate::body::FileError>(())
     /// ```
     pub const fn worst_tick(&self, weights: TickWork) -> WorstTick {
+        self.with_effort_of(self.worst_last(weights), weights)
+    }
+
+    /// The last step of a tick, with contact.
+    const fn worst_last(&self, weights: TickWork) -> WorstTick {
         let mut worst = self.worst_at_edges(weights);
         let mut index = 0;
         while index < self.vertices.len() {
@@ -120,7 +155,7 @@ impl Body<'_> {
             worst = worst.or(self.worst_on_face(&self.faces[index], weights));
             index += 1;
         }
-        self.with_effort_of(worst, weights)
+        worst
     }
 
     /// Bound of the ticks of one pass of the audit on a body that is not convex: of each candidate at most six
@@ -130,18 +165,81 @@ impl Body<'_> {
         all.div_ceil(if self.effort.candidates > 1 { self.effort.candidates as u32 } else { 1 })
     }
 
-    /// [`Self::worst_tick`] in evaluations; calls `pause` between the features.
-    pub(super) fn worst_tick_with(&self, pause: &mut dyn FnMut()) -> WorstTick {
-        let mut worst = self.worst_at_edges(TickWork::EACH);
+    /// Bound of the cycles of every servo tick on a Cortex-M4F, by a model of its instructions (theory §10).
+    pub const fn worst_cycles(&self) -> u32 {
+        cost::cycles(self.worst_tick(self.weights()).cost)
+    }
+
+    /// The body with the highest effort up to its own with which every tick stays within the limit's cycles; with
+    /// [`Effort::ONE`] where none does ([`Self::fits`]).
+    #[must_use]
+    pub const fn fitted(mut self, limit: TickLimit) -> Self {
+        let weights = self.weights();
+        let last = self.worst_last(weights);
+        while cost::cycles(self.with_effort_of(last, weights).cost) > limit.cycles {
+            match self.effort.less() {
+                Some(effort) => self.effort = effort,
+                None => break,
+            }
+        }
+        self
+    }
+
+    /// Whether every tick stays within a limit.
+    pub const fn fits(&self, limit: TickLimit) -> bool {
+        self.worst_tick(TickWork::EACH).cost <= limit.evaluations && self.worst_cycles() <= limit.cycles
+    }
+
+    /// [`Self::fitted`], with its worst tick in evaluations and cycles; calls `pause` between the features.
+    pub(super) fn fitted_with(mut self, limit: TickLimit, pause: &mut dyn FnMut()) -> (Self, WorstTick, u32) {
+        let weights = self.weights();
+        let (each, weighed) = (self.worst_last_with(TickWork::EACH, pause), self.worst_last_with(weights, pause));
+        loop {
+            pause();
+            let cycles = cost::cycles(self.with_effort_of(weighed, weights).cost);
+            match self.effort.less() {
+                Some(effort) if cycles > limit.cycles => self.effort = effort,
+                _ => return (self, self.with_effort_of(each, TickWork::EACH), cycles),
+            }
+        }
+    }
+
+    /// [`Self::worst_last`] with pauses.
+    fn worst_last_with(&self, weights: TickWork, pause: &mut dyn FnMut()) -> WorstTick {
+        let mut worst = self.worst_at_edges(weights);
         for index in 0..self.vertices.len() {
             pause();
-            worst = worst.or(self.worst_at_vertex(index as u16, TickWork::EACH));
+            worst = worst.or(self.worst_at_vertex(index as u16, weights));
         }
         for face in self.faces {
             pause();
-            worst = worst.or(self.worst_on_face(face, TickWork::EACH));
+            worst = worst.or(self.worst_on_face(face, weights));
         }
-        self.with_effort_of(worst, TickWork::EACH)
+        worst
+    }
+
+    /// Instructions of the dearest evaluation of each kind.
+    const fn weights(&self) -> TickWork {
+        let mut weights = TickWork { patches: 0, curves: 0, spokes: cost::SPOKE };
+        let mut index = 0;
+        while index < self.edges.len() {
+            weights.curves = larger(weights.curves, cost::curve(&self.edges[index].curve));
+            index += 1;
+        }
+        index = 0;
+        while index < self.faces.len() {
+            let face = &self.faces[index];
+            weights.patches = larger(weights.patches, cost::patch(&face.patch));
+            let mut side = 0;
+            while side < 4 {
+                if let Side::Edge { separator: Separator::Ruled(curve), .. } = &face.sides[side] {
+                    weights.curves = larger(weights.curves, cost::curve(curve));
+                }
+                side += 1;
+            }
+            index += 1;
+        }
+        weights
     }
 
     /// A tick whose last step and contact take `last`, with the steps before it and the search: on a convex body that

@@ -26,8 +26,14 @@ impl Duty {
     pub(crate) fn from_number(fraction: f32) -> Self {
         // Next to 1.5·2²³ numbers are whole and follow each other as their bits do: the addition rounds. Further away
         // the bits still rise with the number, and go beyond both ends.
-        let bits = (fraction * 32_767.0 + 12_582_912.0).to_bits() as i32;
+        let bits = (fraction * 32_767.0 + ROUND).to_bits() as i32;
         Self(bits.saturating_sub(0x4B40_0000).clamp(-32_767, 32_767) as i16)
+    }
+
+    /// As [`Self::from_number`], of a fraction that is known to be within ±1: the duty is the last bits.
+    #[inline]
+    pub(crate) fn within_scale(fraction: f32) -> Self {
+        Self((fraction * 32_767.0 + ROUND).to_bits() as i16)
     }
 
     /// The duty as a fraction of full scale, −1 to 1.
@@ -36,6 +42,9 @@ impl Duty {
         f32::from(self.0) * (1.0 / 32_767.0)
     }
 }
+
+/// 1.5·2²³, whose last sixteen bits are 0.
+const ROUND: f32 = 12_582_912.0;
 
 /// A motor on a current-controlled amplifier, seen through the transmission.
 ///
@@ -115,6 +124,14 @@ mod tests {
         }
         for duty in -32_767..=32_767 {
             assert_eq!(Duty::from_number(Duty(duty).fraction()), Duty(duty));
+        }
+    }
+
+    #[test]
+    fn within_scale_the_duty_is_that_of_a_number() {
+        for step in -1_000_000..=1_000_000 {
+            let fraction = step as f32 * 1e-6;
+            assert_eq!(Duty::within_scale(fraction), Duty::from_number(fraction), "{fraction}");
         }
     }
 

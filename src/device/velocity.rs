@@ -44,28 +44,12 @@ pub enum VelocityEstimator {
 }
 
 /// The state of one joint's estimator.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum VelocityState {
-    /// The last velocity.
-    LowPass(f32),
-    /// How far the observer's position lags behind the middle of the count, and the velocity.
-    BetweenCounts {
-        /// Middle of the count less the position.
-        lag: f32,
-        /// The last velocity.
-        velocity: f32,
-    },
-}
-
-impl VelocityState {
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct VelocityState {
     /// The middle of the last count less the observer's position; 0 for the low-pass.
-    #[inline]
-    pub const fn lag(&self) -> f32 {
-        match self {
-            Self::BetweenCounts { lag, .. } => *lag,
-            Self::LowPass(_) => 0.0,
-        }
-    }
+    pub lag: f32,
+    /// The last velocity.
+    pub velocity: f32,
 }
 
 impl VelocityEstimator {
@@ -80,33 +64,19 @@ impl VelocityEstimator {
 
     /// The state at rest.
     pub const fn start(&self) -> VelocityState {
-        match self {
-            Self::LowPass(_) => VelocityState::LowPass(0.0),
-            Self::BetweenCounts(_) => VelocityState::BetweenCounts { lag: 0.0, velocity: 0.0 },
-        }
+        VelocityState { lag: 0.0, velocity: 0.0 }
     }
 
-    /// The velocity, after a period in which the position moved by `moved`. The state of another method is restarted.
+    /// The velocity, after a period in which the position moved by `moved`.
     #[inline]
     pub fn next(&self, state: &mut VelocityState, moved: f32) -> f32 {
-        match (self, &mut *state) {
-            (Self::LowPass(filter), VelocityState::LowPass(velocity)) => {
-                *velocity = filter.next(*velocity, moved);
-                *velocity
+        match self {
+            Self::LowPass(filter) => state.velocity = filter.next(state.velocity, moved),
+            Self::BetweenCounts(observer) => {
+                (state.lag, state.velocity) = observer.next(state.lag, state.velocity, moved);
             }
-            (Self::BetweenCounts(observer), VelocityState::BetweenCounts { lag, velocity }) => {
-                (*lag, *velocity) = observer.next(*lag, *velocity, moved);
-                *velocity
-            }
-            _ => self.restart(state),
         }
-    }
-
-    /// Out of line: no loop changes its method while it runs.
-    #[cold]
-    fn restart(&self, state: &mut VelocityState) -> f32 {
-        *state = self.start();
-        0.0
+        state.velocity
     }
 }
 

@@ -14,7 +14,10 @@ impl<D: Displacement> Displaced<'_, D> {
     /// [`Patch::evaluate_curved`] in a copy of its own.
     #[inline(always)]
     pub(crate) fn evaluate_apart(&self, parameters: [f32; 2]) -> CurvedPoint {
-        let mut point = self.rest.evaluate_apart(parameters);
+        if self.by.is_rest() {
+            return self.rest.evaluate_apart::<D::Kinds>(parameters);
+        }
+        let mut point = self.rest.evaluate_apart::<D::Kinds>(parameters);
         self.by.displace_curved(&mut point);
         point
     }
@@ -35,7 +38,11 @@ impl<D: Displacement> Patch for Displaced<'_, D> {
 
     #[inline(always)]
     fn evaluate_curved(&self, u: f32, v: f32) -> CurvedPoint {
-        let mut point = self.rest.evaluate_curved(u, v);
+        // A rigid body's point is not copied.
+        if self.by.is_rest() {
+            return self.rest.evaluate_kinds::<D::Kinds>(u, v);
+        }
+        let mut point = self.rest.evaluate_kinds::<D::Kinds>(u, v);
         self.by.displace_curved(&mut point);
         point
     }

@@ -6,16 +6,21 @@
 
 mod displaced;
 mod jet;
+mod modal;
 mod mode;
 
 pub use displaced::Displaced;
+pub use modal::{Modal, ModalStep};
 pub use mode::{Bump, Field, FieldBounds, MAX_MODES, Mode, Quadratic};
 
 use crate::math::Vec3;
-use crate::patch::{CurvedPoint, ShapeBounds, SurfacePoint};
+use crate::patch::{ALL_KINDS, CurvedPoint, KindSet, Kinds, ShapeBounds, SurfacePoint};
 
 /// A displacement of space `Φ`, by which a body at rest is deformed.
 pub trait Displacement: Copy {
+    /// The kinds of patches of the body at rest.
+    type Kinds: Kinds;
+
     /// Whether it displaces nothing.
     fn is_rest(&self) -> bool;
 
@@ -49,11 +54,13 @@ pub trait Displacement: Copy {
     fn undo(&self, probe: Vec3, within: f32) -> Vec3;
 }
 
-/// No displacement: a rigid body.
+/// No displacement: a rigid body, of these kinds of patches ([`Kinds::MASK`]).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Rigid;
+pub struct Rigid<const KINDS: u32 = ALL_KINDS>;
 
-impl Displacement for Rigid {
+impl<const KINDS: u32> Displacement for Rigid<KINDS> {
+    type Kinds = KindSet<KINDS>;
+
     #[inline(always)]
     fn is_rest(&self) -> bool {
         true

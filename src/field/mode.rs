@@ -3,7 +3,10 @@
 use super::jet::Jet;
 use super::{Displacement, Rigid};
 use crate::math::{Vec3, saturate, sqrt_from_above};
-use crate::patch::{Curvature, CurvedPoint, SecondDerivativeBounds, ShapeBounds, SurfacePoint, ThirdDerivativeBounds};
+use crate::patch::{
+    ALL_KINDS, Curvature, CurvedPoint, KindSet, SecondDerivativeBounds, ShapeBounds, SurfacePoint,
+    ThirdDerivativeBounds,
+};
 
 /// Maximum number of modes of a body.
 pub const MAX_MODES: usize = 8;
@@ -22,6 +25,13 @@ pub struct Quadratic {
 impl Quadratic {
     /// No displacement.
     pub const ZERO: Self = Self { constant: Vec3::ZERO, linear: [Vec3::ZERO; 3], quadratic: [Vec3::ZERO; 6] };
+
+    /// `ψ(X)` for 1 m of `q`.
+    fn at(&self, at: Vec3) -> Vec3 {
+        let ([x, y, z], [xx, xy, xz, yy, yz, zz]) = (self.linear, self.quadratic);
+        let (a, b, c) = (xx * at.x + xy * at.y + xz * at.z, yy * at.y + yz * at.z, zz * at.z);
+        self.constant + (x + a) * at.x + (y + b) * at.y + (z + c) * at.z
+    }
 
     /// Adds another, `q` times.
     #[inline]
@@ -61,6 +71,11 @@ pub struct Bump {
 }
 
 impl Bump {
+    fn at(&self, at: Vec3) -> Vec3 {
+        let left = 1.0 - (at - self.at).length_squared() / (self.radius * self.radius);
+        if left > 0.0 { self.direction * (left * left * left) } else { Vec3::ZERO }
+    }
+
     /// Adds the bump, `q` times.
     #[inline]
     fn add_to(&self, jet: &mut Jet, at: Vec3, q: f32) {
@@ -129,6 +144,15 @@ pub struct Mode {
 }
 
 impl Mode {
+    /// The displacement of a point of the body at rest, metres per metre of `q`.
+    pub fn displacement(&self, at: Vec3) -> Vec3 {
+        let of_field = self.field.at(at);
+        match &self.bump {
+            Some(bump) => of_field + bump.at(at),
+            None => of_field,
+        }
+    }
+
     /// Whether its numbers can be a mode's: bounds and limit are finite and not negative, a radius is positive.
     pub const fn is_valid(&self) -> bool {
         let has_radius = match self.bump {
@@ -235,6 +259,8 @@ impl<'a> Field<'a> {
 }
 
 impl Displacement for &Field<'_> {
+    type Kinds = KindSet<ALL_KINDS>;
+
     #[inline(always)]
     fn is_rest(&self) -> bool {
         self.is_rest
@@ -280,7 +306,7 @@ impl Displacement for &Field<'_> {
 
     fn curve_bounds(&self, rest: [f32; 3], stretch: impl FnOnce() -> f32) -> [f32; 3] {
         if self.is_rest {
-            return Rigid.curve_bounds(rest, stretch);
+            return Rigid::<ALL_KINDS>.curve_bounds(rest, stretch);
         }
         let FieldBounds { stretch: epsilon, bend, twist, .. } = self.bounds;
         let ([second, third, jump], stretch) = (rest, stretch());

@@ -9,7 +9,7 @@ use super::quadratic::{Quadratic, SIZE, Step};
 use super::tool::Region;
 use crate::body::Body;
 use crate::math::{Vec3, saturate, sqrt, sqrt_from_above};
-use crate::patch::{CurvedPoint, Patch as _, SecondDerivatives, SplinePatch, SurfacePoint};
+use crate::patch::{ALL_KINDS, CurvedPoint, KindSet, Patch as _, SecondDerivatives, SplinePatch, SurfacePoint};
 use crate::track::Placement;
 
 /// Shifts `σ` of the model `H + σ J`, in their sequence; then `J` alone.
@@ -61,7 +61,7 @@ impl Foot {
     pub(super) fn on(body: &Body, face: u16, parameters: [f32; 2]) -> Self {
         let [u, v] = parameters.map(|parameter| saturate(parameter, 0.0, 1.0));
         let patch = patch_of(body, face);
-        Self { face, parameters: [u, v], curved: patch.evaluate_apart([u, v]) }
+        Self { face, parameters: [u, v], curved: patch.evaluate_apart::<KindSet<ALL_KINDS>>([u, v]) }
     }
 
     pub(super) fn in_solid(point: Vec3) -> Self {

@@ -2,6 +2,18 @@
 
 /// CRC-32 (ISO-HDLC, reflected `0xEDB8_8320`) of one more little-endian word; start with 0.
 pub const fn crc32(crc: u32, word: u32) -> u32 {
+    crc32_of(crc32_with(crc, word))
+}
+
+/// The first half of [`crc32`]: a CRC and a word in one number.
+#[inline(always)]
+pub(crate) const fn crc32_with(crc: u32, word: u32) -> u32 {
+    !crc ^ word
+}
+
+/// The second half of [`crc32`].
+#[inline(always)]
+pub(crate) const fn crc32_of(crc_with_word: u32) -> u32 {
     const TABLE: [u32; 16] = {
         let mut table = [0; 16];
         let mut index = 0;
@@ -17,7 +29,7 @@ pub const fn crc32(crc: u32, word: u32) -> u32 {
         }
         table
     };
-    let mut crc = !crc ^ word;
+    let mut crc = crc_with_word;
     let mut nibble = 0;
     while nibble < 8 {
         crc = (crc >> 4) ^ TABLE[(crc & 15) as usize];

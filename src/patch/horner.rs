@@ -69,28 +69,6 @@ fn row<const D: usize, const Q: usize>(coefficients: &[[f32; D]; Q], t: f32) -> 
     (value, derivative)
 }
 
-/// The same for rows of any length, by loops: slower, and small.
-#[inline(always)]
-pub(super) fn evaluate_rows<const D: usize>(
-    coefficients: &[[f32; D]],
-    columns: usize,
-    s: f32,
-    t: f32,
-) -> Derivatives<D> {
-    let mut joined = Derivatives { value: [0.0; D], along_s: [0.0; D], along_t: [0.0; D] };
-    for row in coefficients.rchunks_exact(columns) {
-        let (mut value, mut along_t) = ([0.0; D], [0.0; D]);
-        for coefficient in row.iter().rev() {
-            along_t = horner_step(along_t, t, value);
-            value = horner_step(value, t, *coefficient);
-        }
-        joined.along_s = horner_step(joined.along_s, s, joined.value);
-        joined.value = horner_step(joined.value, s, value);
-        joined.along_t = horner_step(joined.along_t, s, along_t);
-    }
-    joined
-}
-
 /// `accumulated · x + next`, component by component.
 #[inline(always)]
 pub(crate) fn horner_step<const D: usize>(accumulated: [f32; D], x: f32, next: [f32; D]) -> [f32; D] {

@@ -136,8 +136,6 @@ where
     match grid.degree[1] {
         1 => unrolled_along_v::<D, 2>(rows, s, t),
         2 => unrolled_along_v::<D, 3>(rows, s, t),
-        // Rational patches of such degrees are rare: save 3 KB of flash.
-        degree_v @ 3.. if D == 4 => horner::evaluate_rows(rows, usize::from(degree_v) + 1, s, t).into(),
         3 => unrolled_along_v::<D, 4>(rows, s, t),
         4 => unrolled_along_v::<D, 5>(rows, s, t),
         _ => unrolled_along_v::<D, 6>(rows, s, t),

@@ -27,6 +27,11 @@ impl<'a> SplinePatch<'a> {
     /// Content of an unused slot: a square of 1 m.
     pub(crate) const VACANT: Self = SplineTable::UNIT_SQUARE.checked_in_body();
 
+    /// Its kind, as a set of one ([`super::Kinds::MASK`]).
+    pub const fn kind(&self) -> u32 {
+        super::kinds::kind(self.grid.degree, self.is_rational())
+    }
+
     /// Whether it has weights.
     #[inline]
     pub(crate) const fn is_rational(&self) -> bool {

@@ -36,8 +36,8 @@ pub(super) fn evaluate<const D: usize, const Q: usize>(coefficients: &[[f32; D]]
     let mut d = Taylor { value: zero, along: [zero; 2], half_ss: zero, mixed: zero, half_tt: zero };
     for component in 0..D {
         // A branch for each component, never taken: in one block the compiler loads the coefficients of all at once,
-        // and runs out of registers.
-        if D == 3 && ((component == 1 && s.is_nan()) || (component == 2 && t.is_nan())) {
+        // and runs out of registers. Of higher degrees it keeps the loop.
+        if D == 3 && Q < 5 && ((component == 1 && s.is_nan()) || (component == 2 && t.is_nan())) {
             return d;
         }
         let [value, along_s, along_t, half_ss, mixed, half_tt] = evaluate_one::<D, Q>(coefficients, component, s, t);

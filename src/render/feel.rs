@@ -7,6 +7,8 @@ use core::f32::consts::TAU;
 /// A torque that repeats with every pitch: `−T sin(2π (θ − centre)/pitch)`. A coarse one is detents, a fine one a
 /// texture. It comes from a potential: turned there and back it returns the energy that it took.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "wire", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Wave {
     /// From one detent to the next, radians.
     pub pitch_rad: f32,
@@ -18,6 +20,8 @@ pub struct Wave {
 
 /// A spring that turns the dial back.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "wire", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Spring {
     /// N·m/rad.
     pub stiffness_n_m_per_rad: f32,
@@ -29,6 +33,8 @@ pub struct Spring {
 
 /// End stops: a spring and a damper beyond either.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "wire", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Ends {
     /// Where they are, radians.
     pub between_rad: [f32; 2],
@@ -38,8 +44,35 @@ pub struct Ends {
     pub damping_n_m_s_per_rad: f32,
 }
 
-/// The feel of a dial. Its parts add up; start with [`Feel::FREE`]. Constant, in flash.
+/// Dry friction on the dial.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "wire", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct DialFriction {
+    /// Its torque, N·m.
+    pub torque_n_m: f32,
+    /// The rate from which on it is whole, rad/s; below, it is damping, which never moves the dial.
+    pub whole_at_rad_per_s: f32,
+}
+
+/// A haptic click at one position: a single detent. Its torque comes from a potential and rises by at most
+/// `2π T/width` for each radian.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "wire", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Notch {
+    /// Where it is, radians.
+    pub at_rad: f32,
+    /// From one side to the other, radians, at most half a turn; beyond, nothing.
+    pub width_rad: f32,
+    /// Maximum torque, `T`, a quarter of the width from its middle, N·m.
+    pub torque_n_m: f32,
+}
+
+/// The feel of a dial. Its parts add up; start with [`Feel::FREE`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "wire", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Feel {
     /// Detents that one turns through smoothly.
     pub detents: Option<Wave>,
@@ -53,14 +86,44 @@ pub struct Feel {
     pub ends: Option<Ends>,
     /// Damping everywhere, N·m·s/rad.
     pub damping_n_m_s_per_rad: f32,
+    /// Dry friction.
+    pub friction: Option<DialFriction>,
+    /// A click at one position.
+    pub notch: Option<Notch>,
+}
+
+/// One part of a feel, as a host sets it; `None` takes the part away.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "wire", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum FeelPart {
+    /// [`Feel::detents`].
+    Detents(Option<Wave>),
+    /// [`Feel::clicks`].
+    Clicks(Option<Detents>),
+    /// [`Feel::texture`].
+    Texture(Option<Wave>),
+    /// [`Feel::spring`].
+    Spring(Option<Spring>),
+    /// [`Feel::ends`].
+    Ends(Option<Ends>),
+    /// [`Feel::damping_n_m_s_per_rad`].
+    Damping(f32),
+    /// [`Feel::friction`].
+    Friction(Option<DialFriction>),
+    /// [`Feel::notch`].
+    Notch(Option<Notch>),
+    /// All parts at once: none is left.
+    Free,
 }
 
 /// Which part of a feel is refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "wire", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum FeelError {
-    /// A pitch that is not positive, or a number that is not finite.
+    /// A pitch that is not between 1e-4 rad and half a turn, a centre beyond a turn, or a number that is not finite.
     Detents,
     /// See [`super::DetentsError`].
     Clicks,
@@ -72,20 +135,32 @@ pub enum FeelError {
     Ends,
     /// A damping that is negative or not finite.
     Damping,
+    /// A torque that is negative or not finite, or a rate that is not positive and finite.
+    Friction,
+    /// A width that is not between 0 and half a turn, or a number that is not finite.
+    Notch,
 }
 
 impl FeelError {
     /// The same as `Display`, for a panic at compile time.
     pub const fn message(self) -> &'static str {
         match self {
-            Self::Detents => "detents need a positive pitch, and a torque that is finite and not negative",
-            Self::Clicks => "clicks need a positive pitch, finite forces, and detents in order",
-            Self::Texture => "a texture needs a positive pitch, and a torque that is finite and not negative",
+            Self::Detents => {
+                "detents need a pitch of at most half a turn, a centre within a turn, and a torque that is not negative"
+            }
+            Self::Clicks => "clicks need a pitch of at most half a turn, finite forces, and detents in order",
+            Self::Texture => {
+                "a texture needs a pitch of at most half a turn, a centre within a turn, and a torque that is not negative"
+            }
             Self::Spring => {
                 "a spring needs a finite rest, a stiffness and a maximum torque that are finite and not negative"
             }
             Self::Ends => "end stops must be in order, with a stiffness and a damping that are finite and not negative",
             Self::Damping => "the damping must be finite and not negative",
+            Self::Friction => "friction needs a torque that is finite and not negative, and a rate that is positive",
+            Self::Notch => {
+                "a click needs a finite position, a width of at most half a turn, and a torque that is not negative"
+            }
         }
     }
 }
@@ -97,12 +172,18 @@ const fn is_size(x: f32) -> bool {
     x >= 0.0 && x < f32::INFINITY
 }
 
+/// The shortest pitch, radians, a quarter of a count of 14 bits. Of a shorter one the number of pitches in an angle no
+/// longer has a fraction in single precision, and a constant torque would be left.
+const MIN_PITCH_RAD: f32 = 1e-4;
+
 impl Wave {
+    /// Of a centre that is far, or a pitch that is long, a constant torque would be left.
     const fn is_valid(&self) -> bool {
-        self.pitch_rad > 0.0
-            && self.pitch_rad < f32::INFINITY
+        self.pitch_rad >= MIN_PITCH_RAD
+            && self.pitch_rad <= 0.5 * TAU
             && is_size(self.torque_n_m)
-            && self.centre_rad.is_finite()
+            && self.centre_rad >= -TAU
+            && self.centre_rad <= TAU
     }
 
     /// The torque at an angle, radians, N·m.
@@ -145,10 +226,158 @@ impl Wave {
     }
 }
 
+impl DialFriction {
+    const fn damping(&self) -> f32 {
+        self.torque_n_m / self.whole_at_rad_per_s
+    }
+
+    const fn is_valid(&self) -> bool {
+        is_size(self.torque_n_m) && self.whole_at_rad_per_s > 0.0 && self.whole_at_rad_per_s < f32::INFINITY
+    }
+}
+
+impl Notch {
+    const fn wave(&self) -> Wave {
+        Wave { pitch_rad: self.width_rad, torque_n_m: self.torque_n_m, centre_rad: self.at_rad }
+    }
+
+    const fn is_valid(&self) -> bool {
+        Wave { centre_rad: 0.0, ..self.wave() }.is_valid() && self.at_rad.is_finite()
+    }
+
+    #[inline]
+    fn at(&self, angle: f32) -> f32 {
+        if (angle - self.at_rad).abs() < 0.5 * self.width_rad { self.wave().at(angle) } else { 0.0 }
+    }
+}
+
 impl Feel {
     /// Nothing.
-    pub const FREE: Self =
-        Self { detents: None, clicks: None, texture: None, spring: None, ends: None, damping_n_m_s_per_rad: 0.0 };
+    pub const FREE: Self = Self {
+        detents: None,
+        clicks: None,
+        texture: None,
+        spring: None,
+        ends: None,
+        damping_n_m_s_per_rad: 0.0,
+        friction: None,
+        notch: None,
+    };
+
+    /// The same with another part.
+    #[must_use]
+    pub const fn with(mut self, part: FeelPart) -> Self {
+        match part {
+            FeelPart::Detents(detents) => self.detents = detents,
+            FeelPart::Clicks(clicks) => self.clicks = clicks,
+            FeelPart::Texture(texture) => self.texture = texture,
+            FeelPart::Spring(spring) => self.spring = spring,
+            FeelPart::Ends(ends) => self.ends = ends,
+            FeelPart::Damping(damping) => self.damping_n_m_s_per_rad = damping,
+            FeelPart::Friction(friction) => self.friction = friction,
+            FeelPart::Notch(notch) => self.notch = notch,
+            FeelPart::Free => self = Self::FREE,
+        }
+        self
+    }
+
+    /// The longest pitch, radians.
+    pub(crate) fn longest_pitch(&self) -> f32 {
+        let waves = [self.detents, self.texture].map(|wave| wave.map_or(0.0, |wave| wave.pitch_rad));
+        waves[0].max(waves[1]).max(self.clicks.map_or(0.0, |clicks| clicks.pitch))
+    }
+
+    /// How far spring, end stops, the outer clicks and the notch are from leaving a dial at this angle where it is, radians.
+    pub(crate) fn pull(&self, angle: f32) -> f32 {
+        let mut far = 0.0_f32;
+        let mut outside = |[least, most]: [f32; 2]| far = far.max(least - angle).max(angle - most);
+        if let Some(spring) = &self.spring {
+            outside([spring.rest_rad; 2]);
+        }
+        if let Some(ends) = &self.ends {
+            outside(ends.between_rad);
+        }
+        if let Some(clicks) = &self.clicks {
+            outside([clicks.first as f32 * clicks.pitch, clicks.last as f32 * clicks.pitch]);
+        }
+        if let Some(notch) = &self.notch {
+            let off = (angle - notch.at_rad).abs();
+            if off < 0.5 * notch.width_rad {
+                far = far.max(off);
+            }
+        }
+        far
+    }
+
+    /// Moves spring, end stops and the range of clicks by as little as leaves a dial at this angle where it is. `angle`
+    /// is by the feel as it is, `now` by the feel as it shall be: whole turns apart.
+    pub(crate) fn settle(&mut self, angle: f32, now: f32) {
+        if let Some(spring) = &mut self.spring {
+            spring.rest_rad = now;
+        }
+        if let Some(ends) = &mut self.ends {
+            let [least, most] = ends.between_rad;
+            let width = most - least;
+            let below = saturate(angle - least, 0.0, width);
+            // A width that is lost in the rounding of its place is none: the dial rests between equal stops.
+            ends.between_rad = [now - below, now + (width - below)];
+        }
+        if let Some(clicks) = &mut self.clicks {
+            let number = |angle: f32| {
+                let pitches = angle / clicks.pitch;
+                // The cast saturates.
+                (pitches + if pitches < 0.0 { -0.5 } else { 0.5 }) as i32
+            };
+            let count = clicks.last.saturating_sub(clicks.first);
+            let below = number(angle).saturating_sub(clicks.first).min(count).max(0);
+            clicks.first = number(now).saturating_sub(below);
+            clicks.last = clicks.first.saturating_add(count);
+        }
+        if let Some(notch) = &mut self.notch {
+            notch.at_rad = now + (notch.at_rad - angle);
+        }
+    }
+
+    /// The number of the detent, smooth or clicking, that is nearest to this angle.
+    pub(crate) fn detent(&self, angle: f32) -> i32 {
+        let (pitch, centre) = match (&self.clicks, &self.detents) {
+            (Some(clicks), _) => (clicks.pitch, 0.0),
+            (None, Some(wave)) => (wave.pitch_rad, wave.centre_rad),
+            (None, None) => return 0,
+        };
+        let pitches = (angle - centre) / pitch;
+        let nearest = (pitches + if pitches < 0.0 { -0.5 } else { 0.5 }) as i32;
+        self.clicks.map_or(nearest, |clicks| nearest.max(clicks.first).min(clicks.last))
+    }
+
+    /// Gives every word to a hash.
+    pub(crate) fn for_each_word(&self, mut take: impl FnMut(u32)) {
+        let mut words = |is_there: bool, numbers: &[f32]| {
+            take(u32::from(is_there));
+            numbers.iter().for_each(|number| take(number.to_bits()));
+        };
+        let wave = |wave: Wave| [wave.pitch_rad, wave.torque_n_m, wave.centre_rad];
+        for part in [self.detents, self.texture] {
+            words(part.is_some(), &part.map_or([0.0; 3], wave));
+        }
+        let clicks = self
+            .clicks
+            .map_or([0.0; 6], |of| [of.pitch, of.stiffness, of.damping, of.snap, of.wall_stiffness, of.max_force]);
+        words(self.clicks.is_some(), &clicks);
+        let spring = self.spring.map_or([0.0; 3], |of| [of.stiffness_n_m_per_rad, of.rest_rad, of.max_torque_n_m]);
+        words(self.spring.is_some(), &spring);
+        let ends = self.ends.map_or([0.0; 4], |of| {
+            [of.between_rad[0], of.between_rad[1], of.stiffness_n_m_per_rad, of.damping_n_m_s_per_rad]
+        });
+        words(self.ends.is_some(), &ends);
+        words(true, &[self.damping_n_m_s_per_rad]);
+        words(self.friction.is_some(), &self.friction.map_or([0.0; 2], |of| [of.torque_n_m, of.whole_at_rad_per_s]));
+        words(self.notch.is_some(), &self.notch.map_or([0.0; 3], |of| wave(of.wave())));
+        if let Some(clicks) = &self.clicks {
+            take(clicks.first as u32);
+            take(clicks.last as u32);
+        }
+    }
 
     /// Checks the parts.
     ///
@@ -161,7 +390,7 @@ impl Feel {
             return Err(FeelError::Detents);
         }
         if let Some(clicks) = self.clicks
-            && clicks.try_new().is_err()
+            && (clicks.try_new().is_err() || clicks.pitch < MIN_PITCH_RAD || clicks.pitch > 0.5 * TAU)
         {
             return Err(FeelError::Clicks);
         }
@@ -180,11 +409,29 @@ impl Feel {
             stiffness_n_m_per_rad: stiffness,
             damping_n_m_s_per_rad: damping,
         }) = self.ends
-            && !(least < most && least.is_finite() && most.is_finite() && is_size(stiffness) && is_size(damping))
+            && !(least < most
+                && most - least < f32::INFINITY
+                && least.is_finite()
+                && most.is_finite()
+                && is_size(stiffness)
+                && is_size(damping))
         {
             return Err(FeelError::Ends);
         }
-        if is_size(self.damping_n_m_s_per_rad) { Ok(()) } else { Err(FeelError::Damping) }
+        if !is_size(self.damping_n_m_s_per_rad) {
+            return Err(FeelError::Damping);
+        }
+        if let Some(friction) = &self.friction
+            && !friction.is_valid()
+        {
+            return Err(FeelError::Friction);
+        }
+        if let Some(notch) = &self.notch
+            && !notch.is_valid()
+        {
+            return Err(FeelError::Notch);
+        }
+        Ok(())
     }
 
     /// The maximum total stiffness, N·m/rad.
@@ -205,6 +452,9 @@ impl Feel {
         if let Some(ends) = &self.ends {
             sum += ends.stiffness_n_m_per_rad;
         }
+        if let Some(notch) = &self.notch {
+            sum += notch.wave().stiffness();
+        }
         sum
     }
 
@@ -216,6 +466,9 @@ impl Feel {
         }
         if let Some(ends) = &self.ends {
             sum += ends.damping_n_m_s_per_rad;
+        }
+        if let Some(friction) = &self.friction {
+            sum += friction.damping();
         }
         sum
     }
@@ -235,6 +488,12 @@ impl Feel {
         if let Some(spring) = &self.spring {
             sum += spring.max_torque_n_m;
         }
+        if let Some(friction) = &self.friction {
+            sum += friction.torque_n_m;
+        }
+        if let Some(notch) = &self.notch {
+            sum += notch.torque_n_m;
+        }
         sum
     }
 
@@ -242,18 +501,17 @@ impl Feel {
     /// limited as a whole.
     #[inline]
     pub fn torque(&self, click: &mut i32, angle: f32, rate: f32) -> f32 {
-        self.torque_after(0, click, angle, rate)
+        self.torque_after(0, angle, click, angle, rate)
     }
 
     /// The same after whole turns of the dial, which are no part of the angle: waves stay as precise as in the first
-    /// turn.
+    /// turn. `whole` is the angle with the turns that spring, end stops, clicks and notch count.
     #[inline]
-    pub fn torque_after(&self, turns: i32, click: &mut i32, angle: f32, rate: f32) -> f32 {
+    pub(crate) fn torque_after(&self, turns: i32, whole: f32, click: &mut i32, angle: f32, rate: f32) -> f32 {
         let mut torque = -self.damping_n_m_s_per_rad * rate;
         if let Some(wave) = &self.detents {
             torque += wave.at_after(turns, angle);
         }
-        let whole = wound(turns, angle);
         if let Some(clicks) = &self.clicks {
             torque += clicks.force(click, whole, rate);
         }
@@ -269,6 +527,12 @@ impl Feel {
         }
         if let Some(ends) = &self.ends {
             torque += ends.torque(whole, rate);
+        }
+        if let Some(friction) = &self.friction {
+            torque += saturate(-friction.damping() * rate, -friction.torque_n_m, friction.torque_n_m);
+        }
+        if let Some(notch) = &self.notch {
+            torque += notch.at(whole);
         }
         torque
     }
@@ -347,8 +611,8 @@ mod tests {
             texture: Some(DETENTS),
             spring: Some(SPRING),
             ends: Some(ENDS),
-            clicks: None,
             damping_n_m_s_per_rad: 1e-3,
+            ..Feel::FREE
         };
         assert_eq!(all.check(), Ok(()));
         let sum = 2.0 * DETENTS.at(0.3) + 0.05 * -0.1 - 1e-3 * 2.0;

@@ -3,6 +3,8 @@
 
 /// Detents at every `pitch`, numbered from `first` to `last`, with a wall beyond either end.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "wire", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Detents {
     /// Distance of one detent from the next.
     pub pitch: f32,

@@ -21,7 +21,7 @@ mod texture;
 pub use coupling::{Coupling, Tool};
 pub use ease::{Ease, Eased, Reason};
 pub(crate) use feel::wound;
-pub use feel::{Ends, Feel, FeelError, Spring, Wave};
+pub use feel::{DialFriction, Ends, Feel, FeelError, FeelPart, Notch, Spring, Wave};
 pub use friction::{Anchor, Friction};
 pub use knob::{Detents, DetentsError};
 pub use material::Material;

@@ -7,8 +7,8 @@ use crate::body::Body;
 use crate::device::Kinematics;
 use crate::math::{Vec3, inverse_sqrt, vec3};
 use crate::patch::{Patch, SplinePatch};
-use crate::render::Friction;
-use crate::servo::{Guard, Knob, KnobWitness, OnePatch, Servo, ServoState, Surface};
+use crate::render::{Feel, FeelPart, Friction};
+use crate::servo::{DialState, Guard, Knob, KnobError, KnobWitness, OnePatch, Servo, ServoState, SoftBody, Surface};
 use crate::track::Placement;
 use thiserror::Error;
 
@@ -113,6 +113,8 @@ pub enum Command {
         /// Which.
         body: u8,
     },
+    /// A part of a knob's feel: [`crate::servo::Knob::set`].
+    Feel(FeelPart),
 }
 
 /// Which choice is refused.
@@ -175,6 +177,9 @@ pub enum SceneError {
     /// There is no body that was uploaded, or it does not go there.
     #[error("body {0}: nothing was uploaded for it")]
     NotUploaded(u8),
+    /// A part of a knob's feel.
+    #[error("{0}")]
+    Feel(KnobError),
 }
 
 impl SceneError {
@@ -203,6 +208,7 @@ impl SceneError {
             Self::Force => "a force must be finite and at most the scene's maximum",
             Self::NotOffered => "this surface does not support the command",
             Self::NotUploaded(_) => "nothing was uploaded for it",
+            Self::Feel(error) => error.message(),
         }
     }
 }
@@ -232,23 +238,60 @@ pub trait Commanded: Surface {
         let _ = (witness, command);
         Err(SceneError::NotOffered)
     }
+
+    /// The dial as it is, of a knob.
+    fn dial(&self, witness: &Self::Witness) -> Option<DialState> {
+        let _ = witness;
+        None
+    }
+
+    /// The feel that a host has set, of a knob.
+    fn feel(&self, witness: &Self::Witness) -> Option<Feel> {
+        let _ = witness;
+        None
+    }
+
+    /// Starts with a feel that a host has set before ([`Knob::restore`]), or changes nothing.
+    ///
+    /// # Errors
+    /// [`SceneError::NotOffered`] unless the surface is a knob, or the value that is out of range.
+    fn restore(&self, witness: &mut Self::Witness, feel: Feel) -> Result<(), SceneError> {
+        let _ = (witness, feel);
+        Err(SceneError::NotOffered)
+    }
 }
 
-impl Commanded for Body<'_> {}
+impl<const KINDS: u32> Commanded for Body<'_, crate::field::Rigid<KINDS>> {}
+impl Commanded for SoftBody<'_> {}
 impl Commanded for SplinePatch<'_> {}
 impl<P: Patch> Commanded for OnePatch<P> {}
 
-/// A knob takes [`Command::Choose`] of an entry that it has.
+/// A knob takes [`Command::Choose`] of an entry that it has, and [`Command::Feel`].
 impl Commanded for Knob {
     fn apply(&self, witness: &mut KnobWitness, command: &Command) -> Result<(), SceneError> {
         match command {
-            Command::Choose { index } if usize::from(*index) < self.feels().len() => {
+            Command::Choose { index }
+                if usize::from(*index) < self.feels().len() + usize::from(witness.own().is_some()) =>
+            {
                 self.choose(witness, *index);
                 Ok(())
             }
+            Command::Feel(part) => self.set(witness, *part).map_err(SceneError::Feel),
             Command::Choose { index } => Err(SceneError::Missing(*index)),
             _ => Err(SceneError::NotOffered),
         }
+    }
+
+    fn dial(&self, witness: &KnobWitness) -> Option<DialState> {
+        Some(Self::dial(self, witness))
+    }
+
+    fn feel(&self, witness: &KnobWitness) -> Option<Feel> {
+        witness.own().copied()
+    }
+
+    fn restore(&self, witness: &mut KnobWitness, feel: Feel) -> Result<(), SceneError> {
+        Self::restore(self, witness, feel).map_err(SceneError::Feel)
     }
 }
 
@@ -264,6 +307,24 @@ impl<S: Commanded, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>>
         command: &Command,
     ) -> Result<(), SceneError> {
         self.surface().apply(state.witness_mut(), command)
+    }
+
+    /// Starts with a feel that a host has set before, or changes nothing. Before the first tick only.
+    ///
+    /// # Errors
+    /// The value that is out of range, or a surface that is no knob.
+    pub fn restore(&self, state: &mut ServoState<JOINTS, S::Witness, G::State>, feel: Feel) -> Result<(), SceneError> {
+        self.surface().restore(state.witness_mut(), feel)
+    }
+
+    /// The dial as it is, of a knob.
+    pub fn dial(&self, state: &ServoState<JOINTS, S::Witness, G::State>) -> Option<DialState> {
+        self.surface().dial(state.witness())
+    }
+
+    /// The feel that a host has set, of a knob.
+    pub fn own_feel(&self, state: &ServoState<JOINTS, S::Witness, G::State>) -> Option<Feel> {
+        self.surface().feel(state.witness())
     }
 }
 
@@ -310,6 +371,7 @@ impl<S: Commanded, const N: usize> Commanded for Scene<'_, S, N> {
             Command::Push { force: [x, y, z] } => state.host.push(self.limits(), vec3(x, y, z)),
             Command::Take { body } => self.take(state, usize::from(body)),
             Command::PutBack { body } => self.put_back(state, usize::from(body)),
+            Command::Feel(_) => Err(SceneError::NotOffered),
         }
     }
 }

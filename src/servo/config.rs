@@ -478,7 +478,7 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS
                 counts: None,
                 angles: [0.0; JOINTS],
                 rates: [0.0; JOINTS],
-                velocities: core.estimators.map(|estimator| estimator.start()),
+                lags: [0.0; JOINTS],
                 angles_at_zero: core.device.encoders.map(|encoder| encoder.angle_at_zero_rad),
                 turns: 0,
                 stillness: Stillness::START,

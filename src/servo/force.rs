@@ -62,13 +62,14 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         if S::Witness::HAS_OWN_FORCE_ONLY {
             return Vec3::ZERO;
         }
-        let push = match state.contact() {
-            Contact::Touching => {
+        let push = match (state.contact.witness.push(), state.contact()) {
+            (Some(push), _) => push,
+            (None, Contact::Touching) => {
                 let wall =
                     self.core.eased.map_or(self.core.penalty, |eased| eased.wall(&self.core.penalty, state.gap()));
                 wall.push(state.gap(), tool.velocity.dot(normal))
             }
-            Contact::Behind | Contact::InFront => 0.0,
+            (None, Contact::Behind | Contact::InFront) => 0.0,
         };
         let witness = *state.contact.witness.witness();
         let surface = &witness.surface;

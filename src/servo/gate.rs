@@ -35,7 +35,7 @@ pub fn gate<const JOINTS: usize>(
     }
     // The usual case: the sum of all fits into one motor's range.
     if sum <= 1.0 {
-        return Ok((fractions.map(Duty::from_fraction), 1.0));
+        return Ok((fractions.map(Duty::within_scale), 1.0));
     }
     Ok(saturate(motors, felt, weight))
 }

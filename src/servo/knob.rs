@@ -1,11 +1,12 @@
-//! A dial as a surface of the loop: a table of feels, one of them active at a time.
+//! A dial as a surface of the loop: a table of feels and one that a host sets, one of them active at a time.
 
 use super::surface::{BakedTables, Surface, Touched, Tracked, witness_words};
 use crate::device::{Device, Dial};
 use crate::math::{Vec3, saturate};
 use crate::patch::{SecondDerivatives, SurfacePoint};
-use crate::render::{Feel, FeelError, wound};
+use crate::render::{Feel, FeelError, FeelPart, wound};
 use crate::track::{BoundaryMode, Contact, Controller, Probe, Witness};
+use core::f32::consts::TAU;
 
 /// The feel of a dial: a table of feels in flash, switched while it runs ([`super::Event::Chosen`]).
 ///
@@ -13,7 +14,11 @@ use crate::track::{BoundaryMode, Contact, Controller, Probe, Witness};
 /// the force is a function of the dial's position ([`Tracked::own_force`]).
 ///
 /// A switch never gives a step: the difference between the old feel's torque and the new one's decays at a constant
-/// rate, N·m/s.
+/// rate, N·m/s. The entry after the table's last is a feel that a host sets part by part ([`Self::set`]).
+///
+/// Where force starts, and where a feel is chosen, whole turns are taken out of the dial's angle: no spring or end stop
+/// turns it back further than half a turn beyond its own place. The host's feel rests where the dial is then
+/// ([`Self::set`]).
 ///
 /// ```
 /// use palpate::device::{Dial, presets::GIMBAL_KNOB};
@@ -37,16 +42,20 @@ pub struct Knob {
     most: f32,
     /// N·m/s.
     let_go: f32,
+    /// N·m/rad and N·m·s/rad.
+    max_stiffness: f32,
+    max_damping: f32,
     /// Whether the encoder's count falls as the angle rises.
     reversed: bool,
 }
 
 /// Which number of a knob is refused. In a `static` it is a compile error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "wire", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum KnobError {
-    /// The table is empty, or has more than 256 entries.
+    /// The table is empty, or has more than 255 entries.
     Feels,
     /// A feel makes no sense by itself.
     Feel(FeelError),
@@ -58,18 +67,26 @@ pub enum KnobError {
     Torque,
     /// The release rate is not positive and finite.
     LetGo,
+    /// The dial is farther than [`MAX_RETURN_RAD`] from where a part of the host's would take it.
+    Far,
 }
+
+/// How far a part of a feel that a host sets may take the dial, radians: an eighth of a turn.
+pub const MAX_RETURN_RAD: f32 = TAU / 8.0;
 
 impl KnobError {
     /// The same as `Display`, for a panic at compile time.
     pub const fn message(self) -> &'static str {
         match self {
-            Self::Feels => "a knob has 1 to 256 feels",
+            Self::Feels => "a knob has 1 to 255 feels",
             Self::Feel(error) => error.message(),
             Self::Stiffness => "a feel is stiffer than the device's maximum stiffness times its radius squared",
             Self::Damping => "a feel damps more than the device's maximum damping times its radius squared",
             Self::Torque => "a feel requests more torque than the device's maximum force times its radius",
             Self::LetGo => "the torque released per second must be positive and finite",
+            Self::Far => {
+                "the dial is more than an eighth of a turn from there: turn it there first, or give a nearer position"
+            }
         }
     }
 }
@@ -88,6 +105,16 @@ pub struct KnobWitness {
     click: i32,
     /// Whole turns of the dial that are no part of its angle.
     turns: i32,
+    /// Those of them that spring, end stops, clicks and notch do not count.
+    base: i32,
+    /// The angle that they count, radians; not known before the first tick.
+    whole: Option<f32>,
+    /// Whether force starts with the next tick, or a feel was chosen: whole turns are taken out.
+    rebased: bool,
+    /// Whether force starts with the next tick.
+    starts: bool,
+    /// The host's feel.
+    own: Option<Feel>,
     /// The torque now, N·m.
     torque: f32,
     /// The torque left over from another feel, N·m.
@@ -108,6 +135,17 @@ impl KnobWitness {
     pub const fn torque(&self) -> f32 {
         self.torque
     }
+
+    /// The dial's angle, radians, by what spring and end stops count: whole turns are taken out where force starts and
+    /// where a feel is chosen. `None` before the first tick.
+    pub const fn angle(&self) -> Option<f32> {
+        self.whole
+    }
+
+    /// The feel that a host has set.
+    pub const fn own(&self) -> Option<&Feel> {
+        self.own.as_ref()
+    }
 }
 
 impl Knob {
@@ -119,36 +157,44 @@ impl Knob {
     pub const fn try_new(device: &Device<Dial, 1>, feels: &'static [Feel], let_go: f32) -> Result<Self, KnobError> {
         let radius = device.kinematics.radius_m;
         let most = device.max_force_n * radius;
-        if feels.is_empty() || feels.len() > 256 {
+        if feels.is_empty() || feels.len() > 255 {
             return Err(KnobError::Feels);
         }
+        let knob = Self {
+            feels,
+            radius,
+            most,
+            let_go,
+            max_stiffness: device.max_stiffness_n_per_m * radius * radius,
+            max_damping: device.max_damping_n_s_per_m * radius * radius,
+            reversed: device.encoders[0].radians_per_count < 0.0,
+        };
         let mut index = 0;
         while index < feels.len() {
-            let feel = &feels[index];
-            if let Err(error) = feel.check() {
-                return Err(KnobError::Feel(error));
-            }
-            // Written so that NaN is refused.
-            let bears_stiffness = feel.stiffness() <= device.max_stiffness_n_per_m * radius * radius;
-            let bears_damping = feel.greatest_damping() <= device.max_damping_n_s_per_m * radius * radius;
-            let bears_torque = feel.torque_between_ends() <= most;
-            if !bears_stiffness {
-                return Err(KnobError::Stiffness);
-            }
-            if !bears_damping {
-                return Err(KnobError::Damping);
-            }
-            if !bears_torque {
-                return Err(KnobError::Torque);
+            if let Err(error) = knob.bears(&feels[index]) {
+                return Err(error);
             }
             index += 1;
         }
-        if let_go > 0.0 && let_go < f32::INFINITY {
-            let reversed = device.encoders[0].radians_per_count < 0.0;
-            Ok(Self { feels, radius, most, let_go, reversed })
-        } else {
-            Err(KnobError::LetGo)
+        if let_go > 0.0 && let_go < f32::INFINITY { Ok(knob) } else { Err(KnobError::LetGo) }
+    }
+
+    /// Whether the device bears a feel.
+    const fn bears(&self, feel: &Feel) -> Result<(), KnobError> {
+        if let Err(error) = feel.check() {
+            return Err(KnobError::Feel(error));
         }
+        // Written so that NaN is refused.
+        let bears_stiffness = feel.stiffness() <= self.max_stiffness;
+        let bears_damping = feel.greatest_damping() <= self.max_damping;
+        let bears_torque = feel.torque_between_ends() <= self.most;
+        if !bears_stiffness {
+            return Err(KnobError::Stiffness);
+        }
+        if !bears_damping {
+            return Err(KnobError::Damping);
+        }
+        if bears_torque { Ok(()) } else { Err(KnobError::Torque) }
     }
 
     /// [`Self::try_new`] for a `static`: invalid numbers are compile errors.
@@ -162,9 +208,108 @@ impl Knob {
         }
     }
 
-    /// The feels.
+    /// The feels of the table.
     pub const fn feels(&self) -> &'static [Feel] {
         self.feels
+    }
+
+    /// Sets a part of the host's feel between two ticks, and makes that the active one, or changes nothing. The first
+    /// part changes a copy of the feel that was active. The old torque is let go of as after a switch.
+    ///
+    /// Where force starts the host's spring, end stops and range of clicks are moved by as little as leaves the dial
+    /// where it is. While the dial's place is known they are taken within [`MAX_RETURN_RAD`] of it only.
+    ///
+    /// # Errors
+    /// The number that is refused.
+    pub fn set(&self, state: &mut KnobWitness, part: FeelPart) -> Result<(), KnobError> {
+        let feel = self.active(state).with(part);
+        self.bears(&feel)?;
+        // A detent turns the dial by half a pitch.
+        let part = Feel::FREE.with(part);
+        let pull = state.whole.map_or(0.0, |angle| part.pull(angle)).max(0.5 * part.longest_pitch());
+        // Written so that NaN is refused.
+        let near = pull <= MAX_RETURN_RAD;
+        if !near {
+            return Err(KnobError::Far);
+        }
+        // New clicks hold the dial in the detent that is nearest, whichever held it before.
+        if part.clicks.is_some() {
+            state.click = feel.detent(state.whole.unwrap_or(0.0));
+        }
+        (state.own, state.feel, state.switched) = (Some(feel), self.feels.len() as u8, true);
+        Ok(())
+    }
+
+    /// Starts with a feel that a host has set before, as the active one, or changes nothing. Before the first tick only.
+    ///
+    /// # Errors
+    /// The number that is refused.
+    pub fn restore(&self, state: &mut KnobWitness, feel: Feel) -> Result<(), KnobError> {
+        if state.whole.is_some() {
+            return Err(KnobError::Far);
+        }
+        self.bears(&feel)?;
+        (state.own, state.feel, state.rebased) = (Some(feel), self.feels.len() as u8, true);
+        Ok(())
+    }
+
+    #[inline]
+    fn active(&self, state: &KnobWitness) -> Feel {
+        self.feels.get(usize::from(state.feel)).copied().or(state.own).unwrap_or(Feel::FREE)
+    }
+
+    /// Takes whole turns out of the angle; the host's feel then rests where the dial is.
+    #[cold]
+    fn rebase(&self, state: &mut KnobWitness, angle: f32) {
+        let before = wound(state.turns.wrapping_sub(state.base), angle);
+        let turns = angle / TAU;
+        // The cast saturates; the angle is within a few turns.
+        let whole = (turns + if turns < 0.0 { -0.5 } else { 0.5 }) as i32;
+        state.base = state.turns.wrapping_add(whole);
+        if usize::from(state.feel) == self.feels.len()
+            && let Some(own) = &mut state.own
+        {
+            own.settle(before, wound(state.turns.wrapping_sub(state.base), angle));
+        }
+        state.click = self.active(state).detent(wound(state.turns.wrapping_sub(state.base), angle));
+        // It is not felt before force fades in.
+        if state.starts {
+            (state.left_over, state.switched) = (0.0, false);
+        }
+        (state.rebased, state.starts) = (false, false);
+    }
+}
+
+/// The dial as a host sees it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct DialState {
+    /// Whole turns beside the angle.
+    pub turns: i32,
+    /// Radians.
+    pub angle_rad: f32,
+    /// The torque of the feel, N·m, before soft start and limits.
+    pub torque_n_m: f32,
+    /// Which feel is active.
+    pub feel: u8,
+    /// The number of the nearest detent or click, by the angle of springs and stops ([`KnobWitness::angle`]).
+    pub detent: i32,
+    /// Whether the dial is beyond an end stop: −1 below, 1 above, 0 between them.
+    pub end: i8,
+}
+
+impl Knob {
+    /// The dial as it is, for a host.
+    pub fn dial(&self, state: &KnobWitness) -> DialState {
+        let (feel, whole) = (self.active(state), state.whole.unwrap_or(0.0));
+        let beyond = |[least, most]: [f32; 2]| i8::from(whole > most) - i8::from(whole < least);
+        DialState {
+            turns: state.turns,
+            angle_rad: state.witness.surface.point.x / self.radius,
+            torque_n_m: state.torque,
+            feel: state.feel,
+            detent: feel.detent(whole),
+            end: feel.ends.map_or(0, |ends| beyond(ends.between_rad)),
+        }
     }
 }
 
@@ -186,6 +331,11 @@ impl Surface for Knob {
             switched: false,
             click: 0,
             turns: 0,
+            base: 0,
+            whole: None,
+            rebased: false,
+            starts: false,
+            own: None,
             torque: 0.0,
             left_over: 0.0,
             force: 0.0,
@@ -197,8 +347,15 @@ impl Surface for Knob {
     fn follow(&self, _: &Controller, state: &mut KnobWitness, probe: Probe, period: f32) -> Touched {
         let inverse = 1.0 / self.radius;
         let (angle, rate) = (probe.position.x * inverse, probe.velocity.x * inverse);
-        if let Some(feel) = self.feels.get(usize::from(state.feel)) {
-            let wanted = saturate(feel.torque_after(state.turns, &mut state.click, angle, rate), -self.most, self.most);
+        if state.rebased {
+            self.rebase(state, angle);
+        }
+        let whole = wound(state.turns.wrapping_sub(state.base), angle);
+        state.whole = Some(whole);
+        if let Some(feel) = self.feels.get(usize::from(state.feel)).or(state.own.as_ref()) {
+            let wanted = feel.torque_after(state.turns, whole, &mut state.click, angle, rate);
+            // No feel that passes its check gives another; a torque that is no number must not become the maximum.
+            let wanted = if wanted.is_finite() { saturate(wanted, -self.most, self.most) } else { 0.0 };
             if state.switched {
                 state.left_over = state.torque - wanted;
                 state.switched = false;
@@ -208,8 +365,7 @@ impl Surface for Knob {
             state.torque = saturate(wanted + state.left_over, -self.most, self.most);
             state.gap = match &feel.ends {
                 Some(ends) => {
-                    let angle = wound(state.turns, angle);
-                    let [below, above] = [angle - ends.between_rad[0], ends.between_rad[1] - angle];
+                    let [below, above] = [whole - ends.between_rad[0], ends.between_rad[1] - whole];
                     self.radius * if below < above { below } else { above }
                 }
                 None => 0.0,
@@ -223,9 +379,15 @@ impl Surface for Knob {
     fn release(&self, _: &mut KnobWitness) {}
 
     fn choose(&self, state: &mut KnobWitness, index: u8) {
-        if usize::from(index) < self.feels.len() && index != state.feel {
-            (state.feel, state.switched) = (index, true);
+        let is_own = usize::from(index) == self.feels.len() && state.own.is_some();
+        if (usize::from(index) < self.feels.len() || is_own) && index != state.feel {
+            (state.feel, state.switched, state.rebased) = (index, true, true);
         }
+    }
+
+    #[inline]
+    fn start_force(&self, state: &mut KnobWitness) {
+        (state.rebased, state.starts) = (true, true);
     }
 
     fn turn(&self, state: &mut KnobWitness, turns: i32) {
@@ -262,9 +424,15 @@ impl Tracked for KnobWitness {
 
     fn for_each_word(&self, mut take: impl FnMut(u32)) {
         witness_words(&self.witness, &mut take);
-        take(u32::from(self.feel) | u32::from(self.switched) << 8);
+        let flags = [self.switched, self.rebased, self.starts, self.whole.is_some(), self.own.is_some()];
+        take(flags.iter().fold(u32::from(self.feel), |word, flag| word << 1 | u32::from(*flag)));
         take(self.click as u32);
         take(self.turns as u32);
+        take(self.base as u32);
+        take(self.whole.unwrap_or(0.0).to_bits());
+        if let Some(own) = &self.own {
+            own.for_each_word(&mut take);
+        }
         for number in [self.torque, self.left_over, self.force, self.gap] {
             take(number.to_bits());
         }
@@ -275,7 +443,7 @@ impl Tracked for KnobWitness {
 mod tests {
     use super::*;
     use crate::device::presets::GIMBAL_KNOB;
-    use crate::render::{Ends, Spring, Wave};
+    use crate::render::{Detents, Ends, Notch, Spring, Wave};
 
     static FEELS: [Feel; 4] = [
         Feel::FREE,
@@ -337,5 +505,29 @@ mod tests {
         assert_eq!(refused(Feel { detents: wave(0.0, 0.01), ..Feel::FREE }), KnobError::Feel(FeelError::Detents));
         assert_eq!(Knob::try_new(&GIMBAL_KNOB, &[], LET_GO), Err(KnobError::Feels));
         assert_eq!(Knob::try_new(&GIMBAL_KNOB, &FEELS, 0.0), Err(KnobError::LetGo));
+    }
+
+    #[test]
+    fn no_part_of_a_host_holds_the_dial_with_a_constant_torque_or_takes_it_far() {
+        let mut state = KNOB.rest();
+        follow(&mut state, 1.5);
+        // So short that an angle has no fraction of it left.
+        let wave = Wave { pitch_rad: 1e-40, torque_n_m: 0.0, centre_rad: 0.0 };
+        assert_eq!(KNOB.set(&mut state, FeelPart::Detents(Some(wave))), Err(KnobError::Feel(FeelError::Detents)));
+        // The dial is in it, far from its middle.
+        let notch = Notch { at_rad: 0.0, width_rad: 3.1, torque_n_m: 1e-3 };
+        assert_eq!(KNOB.set(&mut state, FeelPart::Notch(Some(notch))), Err(KnobError::Far));
+        let clicks = Detents {
+            pitch: 1.4,
+            stiffness: 1e-3,
+            damping: 0.0,
+            snap: 1.0,
+            first: -3,
+            last: 3,
+            wall_stiffness: 1e-3,
+            max_force: 0.01,
+        };
+        assert_eq!(KNOB.set(&mut state, FeelPart::Clicks(Some(clicks))), Ok(()));
+        assert_eq!(state.click, 1, "the nearest detent, not the one of a feel without clicks");
     }
 }

@@ -2,7 +2,7 @@
 
 use super::Fault;
 use super::state::Sensors;
-use crate::device::{Counts, Device, Encoder, Kinematics, VelocityEstimator};
+use crate::device::{Counts, Device, Encoder, Kinematics, VelocityEstimator, VelocityState};
 
 /// Number of turns within which an endless joint's angle stays. Beyond them whole turns are taken out of it, eight at a
 /// time: its rounding stays below 1 % of a count of 14 bits.
@@ -59,9 +59,11 @@ where
         if !angles.iter().zip(&before).all(believable) {
             return Err(Fault::JointJumped);
         }
-        let memories = sensors.rates.iter_mut().zip(&mut sensors.velocities).zip(estimators);
-        for (((rate, memory), estimator), (angle, last)) in memories.zip(angles.iter().zip(before)) {
-            *rate = estimator.next(memory, angle - last);
+        let memories = sensors.rates.iter_mut().zip(&mut sensors.lags).zip(estimators);
+        for (((rate, lag), estimator), (angle, last)) in memories.zip(angles.iter().zip(before)) {
+            let mut memory = VelocityState { lag: *lag, velocity: *rate };
+            estimator.next(&mut memory, angle - last);
+            VelocityState { lag: *lag, velocity: *rate } = memory;
         }
     }
     sensors.counts = Some(counts);

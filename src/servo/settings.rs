@@ -359,7 +359,7 @@ pub struct Safety {
     /// When contact counts as lost; `None` does not watch.
     pub contact: Option<ContactLimits>,
     /// Whether tables that carry the CRC they were baked with are checked: whole before the first tick, and again and
-    /// again after, a word every second tick; not while a guard withholds the force of a contact.
+    /// again after, a word every eighth tick; not while a guard withholds the force of a contact.
     pub checks_tables: bool,
 }
 

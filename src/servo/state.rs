@@ -3,7 +3,7 @@
 use super::contact::LostContact;
 use super::{Fault, PatchWitness, Phase, Remembered, ResetReason, Servo, Settings, Stillness, TableCheck, Tracked};
 use crate::device::drive::Supply;
-use crate::device::{Counts, Device, Duty, ElectricalAngle, HomingState, VelocityState};
+use crate::device::{Counts, Device, Duty, ElectricalAngle, HomingState};
 use crate::math::Vec3;
 use crate::render::{Anchor, Energy, Tool};
 use crate::track::Contact;
@@ -41,8 +41,8 @@ pub(super) struct Sensors<const JOINTS: usize> {
     pub angles: [f32; JOINTS],
     /// Joint rates, rad/s, as estimated.
     pub rates: [f32; JOINTS],
-    /// The state of each joint's velocity estimator.
-    pub velocities: [VelocityState; JOINTS],
+    /// [`crate::device::VelocityState::lag`] of each joint.
+    pub lags: [f32; JOINTS],
     /// Joint angle in the middle of count zero, radians: the encoders' own, or the one that homing found.
     pub angles_at_zero: [f32; JOINTS],
     /// Whole turns, of the encoder's count, that were taken out of the angle of an only joint that turns without end.
@@ -143,8 +143,8 @@ impl<const JOINTS: usize, W: Tracked, G: Remembered> ServoState<JOINTS, W, G> {
         if self.sensors.turns != 0 {
             hash.words([self.sensors.turns as u32]);
         }
-        let TableCheck { place, crc, passes, read } = self.faults.table_check;
-        hash.words([place.record, place.word, crc, passes, u32::from(read.is_some()), read.unwrap_or(0)]);
+        let TableCheck { place, crc, passes, is_read } = self.faults.table_check;
+        hash.words([place.record, place.word, crc, passes, u32::from(is_read)]);
         hash.words([self.sensors.frames_lost, self.contact.rejected_steps, u32::from(self.sensors.counts.is_some())]);
         let LostContact { count, in_a_row, tick, force, share } = self.contact.lost;
         hash.words([count, in_a_row, tick, share.to_bits(), u32::from(self.contact.is_too_deep)]);
@@ -154,12 +154,7 @@ impl<const JOINTS: usize, W: Tracked, G: Remembered> ServoState<JOINTS, W, G> {
         }
         hash.floats(self.sensors.angles);
         hash.floats(self.sensors.rates);
-        for velocity in &self.sensors.velocities {
-            match velocity {
-                VelocityState::LowPass(velocity) => hash.floats([*velocity]),
-                VelocityState::BetweenCounts { lag, velocity } => hash.floats([*lag, *velocity]),
-            }
-        }
+        hash.floats(self.sensors.lags);
         hash.words([u32::from(self.sensors.stillness.turn) | u32::from(self.sensors.stillness.due) << 8]);
         for (pieces, Counts(count)) in self.sensors.stillness.pieces.into_iter().zip(self.sensors.stillness.counts) {
             hash.words([pieces.into(), count as u32]);
@@ -188,8 +183,8 @@ impl<const JOINTS: usize> Sensors<JOINTS> {
     #[inline]
     pub fn estimated_angles(&self) -> [f32; JOINTS] {
         let mut angles = self.angles;
-        for (angle, velocity) in angles.iter_mut().zip(&self.velocities) {
-            *angle -= velocity.lag();
+        for (angle, lag) in angles.iter_mut().zip(self.lags) {
+            *angle -= lag;
         }
         angles
     }

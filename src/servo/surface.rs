@@ -1,8 +1,9 @@
 //! The surfaces that the loop can track: a patch, a body, or one of your own.
 
 use crate::body::{Body, BodyWitness, Feature, TableCursor};
+use crate::field::Rigid;
 use crate::math::Vec3;
-use crate::patch::{Patch, SplinePatch, crc32};
+use crate::patch::{Patch, SplinePatch, crc32, crc32_of, crc32_with};
 use crate::track::{Contact, Controller, Outcome, Probe, Witness};
 use core::fmt::Debug;
 
@@ -95,6 +96,9 @@ pub trait Surface: BakedTables {
     /// Selects an entry, where the surface offers several ([`super::Event::Chosen`]).
     fn choose(&self, _: &mut Self::Witness, _: u8) {}
 
+    /// Force starts with this tick: the loop comes to [`super::Phase::Running`].
+    fn start_force(&self, _: &mut Self::Witness) {}
+
     /// Whole turns, of the encoder's count, that are no part of the first joint's angle any more
     /// ([`super::ServoState::turns`]).
     fn turn(&self, _: &mut Self::Witness, _: i32) {}
@@ -151,6 +155,12 @@ pub trait Tracked: Copy + Debug + PartialEq {
         None
     }
 
+    /// The push along the normal, N, of a surface that moves under it; `None` where the loop's penalty gives it.
+    #[inline]
+    fn push(&self) -> Option<f32> {
+        None
+    }
+
     /// Gives every word of the state to a hash.
     fn for_each_word(&self, take: impl FnMut(u32));
 }
@@ -166,7 +176,7 @@ pub struct Touched {
     pub unexplained: bool,
 }
 
-impl Surface for Body<'_> {
+impl<const KINDS: u32> Surface for Body<'_, Rigid<KINDS>> {
     type Witness = BodyWitness;
 
     fn rest(&self) -> BodyWitness {
@@ -189,7 +199,7 @@ impl Surface for Body<'_> {
     }
 }
 
-impl BakedTables for Body<'_> {
+impl<const KINDS: u32> BakedTables for Body<'_, Rigid<KINDS>> {
     fn table_word(&self, cursor: TableCursor) -> Option<u32> {
         Self::table_word(self, cursor)
     }
@@ -355,7 +365,7 @@ impl Tracked for PatchWitness {
 }
 
 /// Progress of the check that the tables in flash are those that were baked: they are read whole before the first tick,
-/// and then repeatedly, a word every second tick.
+/// and then repeatedly, a word every eighth tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TableCheck {
     /// The next word.
@@ -364,21 +374,26 @@ pub struct TableCheck {
     pub crc: u32,
     /// How often the whole table was found good.
     pub passes: u32,
-    /// A word that is read, and not yet in the CRC.
-    pub read: Option<u32>,
+    /// Whether the last word that was read is not yet in the CRC; `crc` then holds both ([`crc32_with`]).
+    pub is_read: bool,
 }
 
 impl TableCheck {
+    /// Number of ticks between two steps; two steps are a word.
+    pub const EVERY: u32 = 4;
+
     /// Reads one word more, or takes the last one into the CRC: some 40 instructions either way. False if the tables
     /// were read to their end and their CRC is not the expected one.
     #[inline]
     pub fn step<S: BakedTables>(&mut self, surface: &S, expected: u32) -> bool {
-        if let Some(word) = self.read.take() {
-            self.crc = crc32(self.crc, word);
+        if self.is_read {
+            (self.crc, self.is_read) = (crc32_of(self.crc), false);
             return true;
         }
         let found = surface.table_word(self.place);
-        self.read = found;
+        if let Some(word) = found {
+            (self.crc, self.is_read) = (crc32_with(self.crc, word), true);
+        }
         let Some(next) = self.place.after(found) else {
             let good = self.crc == expected;
             *self = Self { passes: self.passes.wrapping_add(u32::from(good)), ..Self::default() };

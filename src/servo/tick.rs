@@ -1,7 +1,9 @@
 //! One tick, from top to bottom.
 
 use super::sense::{Sensed, sense};
-use super::{Event, Fault, Guard, Motion, Output, Phase, SafeOutput, Servo, ServoState, Surface, Tracked as _};
+use super::{
+    Event, Fault, Guard, Motion, Output, Phase, SafeOutput, Servo, ServoState, Surface, TableCheck, Tracked as _,
+};
 use crate::device::{Counts, Duty, Homing, HomingInput, HomingProgress, Kinematics, ProbePose, VelocityMethod};
 use crate::math::Vec3;
 use crate::render::{Moved, Tool, limit};
@@ -121,7 +123,9 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
             Ok((duties, scale, live)) => {
                 let rates = self.rates_to_feed(state);
                 state.drive.duties = self.core.device.feed(live, duties, rates, state.drive.supply);
-                state.drive.force *= scale;
+                if scale < 1.0 {
+                    state.drive.force *= scale;
+                }
                 self.guard.record_output(&mut state.guard, &duties);
             }
             Err(fault) => {
@@ -162,6 +166,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
             stop(state, fault);
         }
         if let Some(expected) = self.expected_crc()
+            && state.ticks.is_multiple_of(TableCheck::EVERY)
             && !self.guard.withholds_force(&state.guard)
             && !state.faults.table_check.step(self.core.surface, expected)
         {
@@ -227,7 +232,11 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
             state.drive.drives = live;
             return Ok(Torques { felt: self.safe_torques(state, &pose, velocity), live, ..Torques::NONE });
         }
-        state.phase = self.next_phase(state, enable);
+        let phase = self.next_phase(state, enable);
+        if phase == Phase::Running && state.phase != Phase::Running {
+            self.core.surface.start_force(&mut state.contact.witness);
+        }
+        state.phase = phase;
 
         // Probe, or the virtual tool it pulls → witness point.
         let held = Tool { position: probe, velocity };
@@ -319,7 +328,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
     fn restart_estimators(&self, state: &mut ServoState<JOINTS, S::Witness, G::State>) {
         state.sensors.counts = None;
         state.sensors.rates = [0.0; JOINTS];
-        state.sensors.velocities = self.core.estimators.map(|estimator| estimator.start());
+        state.sensors.lags = [0.0; JOINTS];
     }
 
     /// At most one step a tick; [`Phase::Fault`] is never left.

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 /// The version of these messages: another one may mean something else by them.
-pub const PROTOCOL: u16 = 3;
+pub const PROTOCOL: u16 = 4;
 
 /// From a device that runs by itself.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -30,6 +30,48 @@ pub enum DeviceMessage {
     Calibrated(Calibrated),
     /// From a device that is being set up, whose inputs have index marks: where they were passed.
     Marked(Marked),
+    /// From a knob, to a host that has sent a hello, [`DIALS_HZ`] times a second.
+    Dial(Dial),
+}
+
+/// How often a knob tells of its dial, Hz.
+pub const DIALS_HZ: u32 = 100;
+
+/// A knob's dial.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Dial {
+    /// The tick.
+    pub tick: u32,
+    /// Whole turns beside the angle.
+    pub turns: i32,
+    /// Radians.
+    pub angle: f32,
+    /// rad/s.
+    pub rate: f32,
+    /// Torque of the feel, N·m, before soft start and limits.
+    pub torque: f32,
+    /// Which feel is active; the host's own is the one after the table's last.
+    pub feel: u8,
+    /// The nearest detent's number: one that was passed changes it.
+    pub detent: i32,
+    /// Beyond an end stop: −1 below, 1 above, 0 between them.
+    pub end: i8,
+    /// The stored feel, as [`KeptFeel`]'s number.
+    pub kept: u8,
+}
+
+/// The stored feel since the last reset.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(u8)]
+pub enum KeptFeel {
+    /// None.
+    #[default]
+    None = 0,
+    /// The knob started with it.
+    Used = 1,
+    /// It is damaged or beyond this device's limits: the knob started with its table.
+    Refused = 2,
 }
 
 /// Index marks that were passed while a device is being set up, by the board's inputs.
@@ -58,12 +100,12 @@ pub enum Calibrated {
     Refused(CalibrationError),
 }
 
-/// Why a calibration is not kept.
+/// Why a calibration or a feel is not kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Error)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum KeepError {
     /// No flash was set aside for one.
-    #[error("this device has no flash for a calibration")]
+    #[error("this device has no flash for it")]
     NoFlash,
     /// The device is not being set up.
     #[error("a calibration is saved only in commissioning mode")]
@@ -75,7 +117,7 @@ pub enum KeepError {
     #[error("{0}")]
     Calibration(CalibrationError),
     /// The flash did not take it: none is kept now that is whole.
-    #[error("flash write error: the calibration was not saved")]
+    #[error("flash write error: nothing is saved")]
     Flash,
     /// Nobody held the enable button and released it.
     #[error("not confirmed at the device: hold the enable button for half a second, then release it")]
@@ -83,6 +125,9 @@ pub enum KeepError {
     /// Flash was written as often as it may be between two resets.
     #[error("flash was written too often since the last reset; reset the device")]
     Worn,
+    /// No part of a feel was set since the last reset.
+    #[error("no feel was set since the last reset; set one first")]
+    NoFeel,
 }
 
 /// The identity and limits of a device.
@@ -139,6 +184,9 @@ pub enum Refused {
     /// A calibration.
     #[error("{0}")]
     Calibration(KeepError),
+    /// A feel.
+    #[error("{0}")]
+    Feel(KeepError),
 }
 
 /// The host's view of the loop.

@@ -197,6 +197,15 @@ pub enum HostMessage {
         /// The values of each joint; a device with fewer takes the first. `None` clears the stored calibration.
         joints: Option<[crate::commission::JointCalibration; 3]>,
     },
+    /// Stores the feel of a knob that was set since its last reset in the device's flash, or clears the stored one; used
+    /// from the next reset on. Only while no motor is driven and the enable input is released, and once a person has
+    /// confirmed it ([`hold::CONFIRM`]). Answered by its number ([`super::Answer`]).
+    KeepFeel {
+        /// As an order's.
+        number: u16,
+        /// Whether it is stored; otherwise cleared.
+        keeps: bool,
+    },
 }
 
 /// From a device in commissioning mode: its readings and its motors' duties.

@@ -20,6 +20,8 @@ mod message;
 mod report;
 pub mod telemetry;
 mod upload;
-pub use dialogue::{Answer, Calibrated, DeviceMessage, Hello, KeepError, Marked, PROTOCOL, Refused, View};
+pub use dialogue::{
+    Answer, Calibrated, DIALS_HZ, DeviceMessage, Dial, Hello, KeepError, KeptFeel, Marked, PROTOCOL, Refused, View,
+};
 pub use message::{HostMessage, Reading, Record, Report, Sensors, hold};
 pub use upload::{CHUNK, Upload, UploadError};

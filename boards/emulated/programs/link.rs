@@ -40,7 +40,7 @@ static BODIES: Memory = Bodies::with_effort(EFFORT);
 static FLASH: PretendedFlash<16_384> = PretendedFlash::new();
 static KEPT: Flash = Kept::with_effort(FLASH.region(), EFFORT);
 static STORE: Store = Both(&BODIES, &KEPT);
-static BODY: Body = tables::with_effort(EFFORT);
+static BODY: Body = tables::BODY.with_effort(EFFORT);
 static SLOTS: [Slot<Store>; 2] = [Slot::fixed(&BODY), Slot::exchangeable(&BODY, &STORE)];
 /// Side by side, the second to the right of the first.
 static SCENE: Surface = Scene::new(

@@ -6,17 +6,26 @@ mod cogging {
 }
 
 use cortex_m::peripheral::SYST;
+use palpate::commission::Wiring;
+use palpate::device::drive::Field;
 use palpate::device::sensor::Frozen;
 use palpate::device::{Counts, Device, Dial};
-use palpate::servo::{Deadline, Event, Input};
+use palpate::device::{Duty, ElectricalAngle};
+use palpate::render::Feel;
+use palpate::servo::{Deadline, Event, Guarded, Input, Knob};
 use palpate::wire::Sensors;
 use palpate::wire::frame::{self, MAX_FRAME, Received};
 
 use crate::board::Board;
 use crate::link::Link;
+use crate::pins::Pins;
 use crate::timer::{INSTRUCTIONS_PER_SECOND, InstructionCounter};
 pub use palpate_bench::knob::SETTINGS;
-use palpate_bench::knob::{KnobServo, KnobState, MODULATION, SEARCH, TOLD_OF_SUPPLY, device, report, servo, widths};
+use palpate_bench::knob::{
+    KnobServo, KnobState, MODULATION, SEARCH, TOLD_OF_SUPPLY, device, duties, report, servo, widths,
+};
+use palpate_bench::sensors::BadFrame;
+use palpate_bench::{Board as BenchBoard, Felt, NotObeyed, Panel, Passive};
 
 /// Ticks in a row without any frame after which the host is taken for gone and the emulator ends.
 const SILENT_TICKS: u32 = 5;
@@ -93,4 +102,88 @@ impl<L: Link> KnobLoop<L> {
             Some(Received::Message(_) | Received::Empty) | None => Input::Lost,
         }
     }
+}
+
+/// The servo of the boards' loop.
+pub struct This;
+
+impl This {
+    /// Whether the knob bears a feel that was kept.
+    pub fn bears(feel: &Feel) -> bool {
+        SERVO.restore(&mut SERVO.start(), *feel).is_ok()
+    }
+}
+
+impl Felt<1> for This {
+    type Surface = Knob;
+    type Mechanism = Dial;
+    type Guard = Guarded<1>;
+
+    #[inline(always)]
+    fn servo(&self) -> &KnobServo {
+        &SERVO
+    }
+
+    #[inline(always)]
+    fn wiring(&self) -> Wiring<1> {
+        Wiring::STRAIGHT
+    }
+}
+
+/// The pins of a knob, as far as a link carries them.
+pub struct KnobPins<L> {
+    pins: Pins<L>,
+    frozen: Frozen,
+    field: ElectricalAngle,
+}
+
+impl<L: Link> KnobPins<L> {
+    /// Pins at rest.
+    pub fn new(board: &Board, link: L) -> Self {
+        let mut pins = Pins::new(board, link);
+        pins.duties = duties(None);
+        Self { pins, frozen: Frozen::AS5047P, field: ElectricalAngle::default() }
+    }
+
+    /// Tells the host the widths of the motor's phases from this tick on.
+    pub fn report(&mut self) {
+        self.pins.report();
+    }
+}
+
+impl<L: Link> BenchBoard<1> for KnobPins<L> {
+    fn aim(&mut self, [angle]: [ElectricalAngle; 1]) {
+        self.field = angle;
+    }
+
+    fn drive(&mut self, [duty]: [Duty; 1]) -> Result<(), NotObeyed> {
+        self.pins.duties = duties(Some(MODULATION.widths(Field { angle: self.field, duty })));
+        Ok(())
+    }
+}
+
+impl<L: Link> Passive<1> for KnobPins<L> {
+    fn now(&self) -> u32 {
+        self.pins.counter()
+    }
+
+    fn acknowledge(&mut self) {}
+
+    fn panel(&mut self) -> Panel {
+        let panel = self.pins.listen();
+        let supply = self.pins.sensors.map(|sensors| sensors.counts[2] as f32 / 1e3);
+        Panel { supply, ..panel }
+    }
+
+    fn read(&mut self) -> Result<[Counts; 1], BadFrame> {
+        let Some(Sensors { counts: [counts, ..], .. }) = self.pins.sensors else { return Err(BadFrame::Absent) };
+        if self.frozen.is_frozen(counts as u32) { Err(BadFrame::Frozen) } else { Ok([Counts(counts)]) }
+    }
+
+    fn release(&mut self) -> Result<(), NotObeyed> {
+        self.pins.duties = duties(None);
+        Ok(())
+    }
+
+    fn show(&mut self, _: bool) {}
 }

@@ -19,8 +19,8 @@ pub struct Pins<L> {
     link: L,
     clock: Clock,
     /// The frame for this tick.
-    sensors: Option<Sensors>,
-    duties: [i16; 3],
+    pub(crate) sensors: Option<Sensors>,
+    pub(crate) duties: [i16; 3],
     tick: u32,
     silent_ticks: u32,
 }
@@ -52,14 +52,14 @@ impl<L: Link> BenchBoard<3> for Pins<L> {
     }
 }
 
-impl<L: Link> Passive<3> for Pins<L> {
-    fn now(&self) -> u32 {
+impl<L: Link> Pins<L> {
+    /// The board's counter.
+    pub(crate) fn counter(&self) -> u32 {
         self.clock.now()
     }
 
-    fn acknowledge(&mut self) {}
-
-    fn panel(&mut self) -> Panel {
+    /// Takes the frame for this tick, and what the person's side says in it.
+    pub(crate) fn listen(&mut self) -> Panel {
         let received = self.link.receive();
         self.silent_ticks = if received.is_none() { self.silent_ticks + 1 } else { 0 };
         self.sensors = match received {
@@ -73,6 +73,18 @@ impl<L: Link> Passive<3> for Pins<L> {
             ready: true,
             supply: None,
         }
+    }
+}
+
+impl<L: Link> Passive<3> for Pins<L> {
+    fn now(&self) -> u32 {
+        self.counter()
+    }
+
+    fn acknowledge(&mut self) {}
+
+    fn panel(&mut self) -> Panel {
+        self.listen()
     }
 
     fn read(&mut self) -> Result<[Counts; 3], BadFrame> {

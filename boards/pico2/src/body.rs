@@ -1,6 +1,8 @@
 //! Settings of this board: the file to change first. The build chooses device (`--device`) and body (`--body`).
 
 use palpate::body::Effort;
+#[cfg(feature = "host")]
+use palpate::body::{Body, TickLimit};
 use palpate::math::vec3;
 #[cfg(feature = "host")]
 use palpate::scene::Slot;
@@ -41,6 +43,7 @@ mod tables {
 /// instructions of 1.9 cycles. The rest is for bodies of higher degree, the link and protection; `palpate bake
 /// --table-report` bounds the tick of a body.
 pub const EFFORT: Effort = Effort::BENCH;
+#[cfg(not(feature = "host"))]
 static SURFACE: tables::Surface = tables::with_effort(EFFORT);
 
 #[cfg(not(feature = "host"))]
@@ -51,9 +54,11 @@ palpate_bench::arm!(OneSlot<RamStore> = &SCENE, own, SETTINGS, SAFETY);
 /// Bodies from a host.
 #[cfg(feature = "host")]
 static STORE: RamStore = RamStore::with_effort(EFFORT);
-/// One patch alone is no body: choose a model of one.
+/// With code for every kind of patch, as a host's body may have any. One patch alone is no body: choose a model of one.
 #[cfg(feature = "host")]
-static SLOT: Slot<RamStore> = Slot::exchangeable(&SURFACE, &STORE);
+static BUILT_IN: Body = tables::BODY.with_effort(EFFORT).fitted(TickLimit::BENCH);
+#[cfg(feature = "host")]
+static SLOT: Slot<RamStore> = Slot::exchangeable(&BUILT_IN, &STORE);
 #[cfg(feature = "host")]
 static SCENE: OneSlot<RamStore> = one_slot(&SLOT, &own::DEVICE, &SETTINGS);
 

@@ -9,6 +9,7 @@
 #![no_main]
 
 mod body;
+mod bus;
 mod chip;
 mod pins;
 mod port;

@@ -2,15 +2,14 @@
 
 use embedded_hal::pwm::SetDutyCycle;
 use palpate::device::drive::HBridge;
-use palpate_bench::sensors::Angles;
+use palpate_bench::sensors::{Angles, Bounded};
 use palpate_bench::{CycleDelay, OneChannel, Parts, ReadBack, Switched};
 use rp235x_hal::gpio::{
     DynPinId, FunctionSio, FunctionSpi, Pin, PullDown, PullNone, PullUp, SioInput, SioOutput, bank0,
 };
-use rp235x_hal::pac::SPI0;
 use rp235x_hal::pwm::{A, Channel, FreeRunning, Pwm5, Pwm6, Pwm7, Slice, SliceId};
-use rp235x_hal::spi::{Enabled, Spi};
 
+use crate::bus::Spi;
 use crate::chip::CLOCK;
 use crate::supply::Volts;
 use crate::ticks::{Clock, Ticks};
@@ -19,7 +18,8 @@ use crate::ticks::{Clock, Ticks};
 const MOTOR_PERIOD: u16 = (CLOCK / 20_000 - 1) as u16;
 
 type Line<P> = Pin<P, FunctionSpi, PullDown>;
-type Bus = Spi<Enabled, SPI0, (Line<bank0::Gpio3>, Line<bank0::Gpio4>, Line<bank0::Gpio2>), 8>;
+/// The pins of the sensors' bus.
+pub type Bus = (Line<bank0::Gpio3>, Line<bank0::Gpio4>, Line<bank0::Gpio2>);
 /// An output.
 pub type Output = Pin<DynPinId, FunctionSio<SioOutput>, PullDown>;
 type Switch = Pin<DynPinId, FunctionSio<SioInput>, PullUp>;
@@ -28,7 +28,7 @@ type Ready = Pin<DynPinId, FunctionSio<SioInput>, PullNone>;
 /// Output A of a slice and a direction pin.
 type Bridge<S> = HBridge<Channel<Slice<S, FreeRunning>, A>, Output>;
 type Drives = ReadBack<Switched<(Bridge<Pwm5>, Bridge<Pwm6>, Bridge<Pwm7>), Output>>;
-type Sensors = Angles<Bus, Output, CycleDelay<Clock>, 3>;
+type Sensors = Angles<Bounded<Spi>, Output, CycleDelay<Clock>, 3>;
 /// All of them.
 pub type Board = Parts<Clock, Ticks, Sensors, Drives, OneChannel<Switch>, Switch, Ready, Volts, Output, 3>;
 

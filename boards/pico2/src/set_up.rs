@@ -5,7 +5,7 @@ use palpate::device::SupplyRange;
 use palpate::device::drive::HBridge;
 use palpate::wire::telemetry::Queue;
 use palpate_bench::cortex::{Below, Cycles, program_check};
-use palpate_bench::sensors::{Angles, max_steps};
+use palpate_bench::sensors::{Angles, Bounded, max_steps};
 use palpate_bench::usb::{Cdc, Either, Plain};
 use palpate_bench::{Cause, ClocksDisagree, CycleDelay, Lines, OneChannel, Parts, Port, ReadBack, Settings, Switched};
 use rp235x_hal::adc::{Adc, AdcPin};
@@ -19,6 +19,7 @@ use rp235x_hal::uart::{DataBits, StopBits, UartConfig, UartPeripheral};
 use rp235x_hal::{Sio, Watchdog};
 
 use crate::body::This;
+use crate::bus;
 use crate::chip::{CLOCK, CRYSTAL};
 use crate::ring::Ring;
 use crate::supply::Volts;
@@ -71,13 +72,15 @@ pub fn set_up(
         HBridge::new(slices.pwm7.channel_a, pins.gpio15.into_push_pull_output().into_dyn_pin()),
     );
 
-    let lines = (pins.gpio3.reconfigure(), pins.gpio4.reconfigure(), pins.gpio2.reconfigure());
-    let bus = Spi::new(chip.SPI0, lines).init(&mut chip.RESETS, speed, 8.MHz(), embedded_hal::spi::MODE_1);
+    let lines: pins::Bus = (pins.gpio3.reconfigure(), pins.gpio4.reconfigure(), pins.gpio2.reconfigure());
+    let bus: Spi<_, _, _, 8> = Spi::new(chip.SPI0, lines);
+    let (bus, _) = bus.init(&mut chip.RESETS, speed, 8.MHz(), embedded_hal::spi::MODE_1).free();
     let selects = [
         pins.gpio5.into_push_pull_output_in_state(true.into()).into_dyn_pin(),
         pins.gpio6.into_push_pull_output_in_state(true.into()).into_dyn_pin(),
         pins.gpio7.into_push_pull_output_in_state(true.into()).into_dyn_pin(),
     ];
+    let bus = Bounded(bus::Spi(bus));
     let mut sensors = Angles::new(bus, selects, CycleDelay::new(clock, CLOCK), max_steps(&This, BENCH.bad_frames));
     // One that does not start is a fault of the loop, which names it in its first tick.
     let _ = sensors.start();
@@ -100,7 +103,7 @@ pub fn set_up(
                 pins.gpio19.reconfigure().into_dyn_pin(),
                 pins.gpio20.reconfigure().into_dyn_pin(),
             ],
-            supply: Volts { converter: Adc::new(chip.ADC, &mut chip.RESETS), pin: supply_pin },
+            supply: Volts::new(Adc::new(chip.ADC, &mut chip.RESETS), supply_pin),
         },
         light: pins.gpio25.into_push_pull_output().into_dyn_pin(),
     };

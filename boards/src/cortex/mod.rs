@@ -8,6 +8,7 @@ mod copy;
 mod cycles;
 mod hand_over;
 mod memo;
+mod memory;
 mod program;
 mod stop;
 
@@ -18,5 +19,6 @@ pub use copy::program_check;
 pub use cycles::Cycles;
 pub use hand_over::HandOver;
 pub use memo::MemoCell;
+pub use memory::holds_its_bits;
 pub use program::{Below, Shared, Ticking};
 pub use stop::bearing_nmi;

@@ -1,10 +1,12 @@
 //! The joints' sensors, as one.
 
 mod angles;
+mod bounded;
 mod counters;
 mod selected;
 
 pub use angles::{Angles, SELECT};
+pub use bounded::{Bounded, Controller, Unfinished};
 pub use counters::{Counters, Readings, max_step, max_steps};
 pub use selected::{SelectError, SelectTiming, Selected};
 

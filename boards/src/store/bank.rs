@@ -98,7 +98,8 @@ impl<const FACES: usize, const EDGES: usize> Bank<FACES, EDGES> {
         built.clear();
         let Built { faces, edges, body } = built;
         match Body::from_bytes_with(file, BodyBuffer { faces, edges }, TickLimit::BENCH, pause) {
-            Ok(found) => *body = Some(found.with_effort(self.effort)),
+            // Not above the effort with which its ticks fit.
+            Ok(found) => *body = Some(found.with_effort(self.effort.min(found.effort()))),
             Err(error) => {
                 // SAFETY: as above, and nothing of `built` is used any more.
                 unsafe { (*self.built.get()).clear() };

@@ -6,6 +6,7 @@
 //! | [`Kept`] | flash for one body, which is rendered from the first tick on; written only while the motors are off |
 //! | [`Both`] | one and the other for the same slot |
 //! | [`KeptCalibration`] | flash for what commissioning found, which the loop is made with after the next reset |
+//! | [`KeptFeels`] | flash for a knob's feel, which the knob starts with after the next reset |
 //! | [`PretendedFlash`] | RAM with the rules of flash, where there is none to write |
 //!
 //! A bank goes from hand to hand by one word: main's, while it is written; nobody's, once its body was checked; the
@@ -19,6 +20,7 @@ mod bank;
 mod bodies;
 mod both;
 mod calibrations;
+mod feels;
 mod incoming;
 mod kept;
 mod pretended;
@@ -31,5 +33,6 @@ pub type RamStore = Bodies<12_288, 120, 300>;
 
 pub use both::Both;
 pub use calibrations::{Built, Found, KeptCalibration};
+pub use feels::KeptFeels;
 pub use kept::{Keeping, Kept, Region};
 pub use pretended::{Broken, Pretended, PretendedFlash};

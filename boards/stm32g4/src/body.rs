@@ -35,7 +35,8 @@ pub mod tables {
 /// instructions of 1.9 cycles. The rest is for bodies of higher degree, the link and protection; `palpate bake
 /// --table-report` bounds the tick of a body.
 pub const EFFORT: Effort = Effort::BENCH;
-pub static SURFACE: tables::Surface = tables::with_effort(EFFORT);
+#[cfg(not(feature = "host"))]
+static SURFACE: tables::Surface = tables::with_effort(EFFORT);
 
 #[cfg(not(feature = "host"))]
 palpate_bench::arm!(tables::Surface = &SURFACE, own, SETTINGS, SAFETY);

@@ -5,7 +5,7 @@
 mod supply;
 mod ticks;
 
-pub use supply::Volts;
+pub use supply::{Converters, Volts, converters};
 pub use ticks::{Clock, Slow, Ticks};
 
 use palpate::servo::ResetReason;

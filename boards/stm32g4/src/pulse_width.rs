@@ -4,9 +4,8 @@
 //! locked up, a word of SRAM or flash is damaged, the chip's supply falls below 2.9 V, a debugger halts the core, or the
 //! stop loop at PB12 opens.
 
-use palpate::device::Duty;
 use palpate::device::drive::SetPointRange;
-use palpate_bench::NotObeyed;
+use palpate_bench::Breakable;
 use stm32g4xx_hal::gpio::{AF6, Output, PA5, PA8, PA9, PA10, PB12};
 use stm32g4xx_hal::prelude::*;
 use stm32g4xx_hal::pwm::{ActiveHigh, C1, C2, C3, ComplementaryDisabled, Pwm};
@@ -32,8 +31,6 @@ pub const RANGE: SetPointRange = SetPointRange::TEN_TO_NINETY;
 /// Two periods of a width.
 pub const DWELL: u8 = (2.0 * SETTINGS.rate_hz / FREQUENCY as f32) as u8 + 1;
 
-/// The ticks in a row for which a break may go unexplained: stop may be pressed between looking at it and driving.
-const UNEXPLAINED: u8 = 2;
 /// The flags of breaks, which zeros clear.
 const BREAKS: u32 = 1 << 7 | 1 << 8 | 1 << 13;
 
@@ -80,36 +77,17 @@ fn registers() -> &'static tim1::RegisterBlock {
 }
 
 /// The amplifiers behind the break.
-pub struct Drives {
-    amplifiers: Three,
-    /// Commands in a row that found the widths off, and could not switch them on.
-    broken: u8,
-}
+pub type Drives = Breakable<Three>;
 
 /// These behind the break.
 pub fn guarded(amplifiers: Three) -> Drives {
-    Drives { amplifiers, broken: 0 }
+    Breakable::new(amplifiers, is_broken as fn() -> bool)
 }
 
-impl palpate_bench::Drives<3> for Drives {
-    /// A break that is over is taken back; one that lasts enables nothing, and is soon a failure.
-    #[inline]
-    fn apply(&mut self, duties: [Duty; 3]) -> Result<(), NotObeyed> {
-        let is_off = || registers().bdtr().read().moe().bit_is_clear();
-        if is_off() {
-            take_back();
-        }
-        if is_off() {
-            self.broken = self.broken.saturating_add(1);
-            self.amplifiers.release()?;
-            return if self.broken > UNEXPLAINED { Err(NotObeyed) } else { Ok(()) };
-        }
-        self.broken = 0;
-        self.amplifiers.apply(duties)
+fn is_broken() -> bool {
+    let is_off = || registers().bdtr().read().moe().bit_is_clear();
+    if is_off() {
+        take_back();
     }
-
-    #[inline]
-    fn release(&mut self) -> Result<(), NotObeyed> {
-        self.amplifiers.release()
-    }
+    is_off()
 }

@@ -8,7 +8,7 @@ use palpate_bench::sensors::{Counters, max_steps};
 use palpate_bench::{
     Cause, ClockCheck, ClocksDisagree, CycleDelay, Lines, Memo, OneChannel, Parts, Port, ReadBack, Settings,
 };
-use palpate_stm32g4::{CLOCK, Clock, Iwdg, MEMO, Slow, Ticks, Volts, open_port, start};
+use palpate_stm32g4::{CLOCK, Clock, Iwdg, MEMO, Slow, Ticks, Volts, converters, open_port, start};
 use stm32g4xx_hal::gpio::{AnyPin, Input};
 use stm32g4xx_hal::prelude::*;
 use stm32g4xx_hal::stm32::{Interrupt, Peripherals};
@@ -103,7 +103,7 @@ pub fn set_up(
                 c.pc4.into_pull_down_input().erase(),
                 c.pc5.into_pull_down_input().erase(),
             ],
-            supply: Volts::new(chip.ADC1, chip.ADC12_COMMON, b.pb1.into_analog(), &mut delay, &mut rcc),
+            supply: Volts::new(chip.ADC1, &converters(chip.ADC12_COMMON, &mut rcc), b.pb1.into_analog(), &mut delay),
         },
         light,
     };

@@ -3,7 +3,7 @@
 use embedded_hal::delay::DelayNs;
 use palpate_bench::{Divider, Supply};
 use stm32g4xx_hal::adc::config::{AdcConfig, ClockMode};
-use stm32g4xx_hal::adc::{AdcClaim, AdcCommonExt};
+use stm32g4xx_hal::adc::{AdcClaim, AdcCommon, AdcCommonExt};
 use stm32g4xx_hal::gpio::{Analog, PB1};
 use stm32g4xx_hal::rcc::Rcc;
 use stm32g4xx_hal::stm32::{ADC1, ADC12_COMMON, adc1};
@@ -17,6 +17,15 @@ const REFERENCE: u8 = 18;
 /// 1.212 V of 3.3 V, and a tenth more or less: the reference has 2 %, the board's regulator and the converter the rest.
 const PLAUSIBLE: core::ops::RangeInclusive<u16> = 1_354..=1_654;
 
+/// The clock of two converters.
+pub type Converters = AdcCommon<ADC12_COMMON>;
+
+/// Gives the converters 42.5 MHz. The HAL's default is the core's clock, undivided, which is more than the 60 MHz that
+/// they take, and a panic.
+pub fn converters(common: ADC12_COMMON, rcc: &mut Rcc) -> Converters {
+    common.claim(ClockMode::AdcHclkDiv4, rcc)
+}
+
 /// The converter and its pin.
 pub struct Volts {
     _pin: PB1<Analog>,
@@ -24,18 +33,9 @@ pub struct Volts {
 
 impl Volts {
     /// The converter, calibrated, configured, and at its first conversion.
-    pub fn new(
-        converter: ADC1,
-        common: ADC12_COMMON,
-        pin: PB1<Analog>,
-        delay: &mut impl DelayNs,
-        rcc: &mut Rcc,
-    ) -> Self {
-        // 42.5 MHz. The HAL's default is the core's clock, undivided, which is more than the 60 MHz that the converter
-        // takes, and a panic.
-        let common = common.claim(ClockMode::AdcHclkDiv4, rcc);
+    pub fn new(converter: ADC1, converters: &Converters, pin: PB1<Analog>, delay: &mut impl DelayNs) -> Self {
         // From here on its registers are this driver's.
-        let _ = common.claim_and_configure(converter, AdcConfig::default(), delay);
+        let _ = converters.claim_and_configure(converter, AdcConfig::default(), delay);
         // SAFETY: a bit that switches the reference to its input; the HAL's owner of the register is gone.
         unsafe { (*ADC12_COMMON::ptr()).ccr().modify(|_, w| w.vrefen().set_bit()) };
         let registers = Self::registers();

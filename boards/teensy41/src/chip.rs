@@ -1,12 +1,12 @@
 //! Reset, watchdog and stop of the i.MX RT1062.
 
-use core::ptr::addr_of;
+use core::ptr::{addr_of, addr_of_mut};
 
 use imxrt_ral::gpio::GPIO1;
 use imxrt_ral::snvs::SNVS;
 use imxrt_ral::src::SRC;
 use imxrt_ral::{modify_reg, read_reg, write_reg};
-use palpate_bench::cortex::{ProgramCheck, ProgramCopy};
+use palpate_bench::cortex::{ProgramCheck, ProgramCopy, holds_its_bits};
 use palpate_bench::{Cause, Memo, ResetFlags};
 
 /// Pins 16, 17 and 18, which enable the amplifiers, are these bits of GPIO1.
@@ -52,6 +52,23 @@ unsafe extern "C" {
     static __srodata: u32;
     static __erodata: u32;
     static __sirodata: u32;
+    static mut __estack: u32;
+    static mut __sstack: u32;
+    static mut __sdata: u32;
+    static mut __ebss: u32;
+}
+
+/// Tests the memory of stack and variables.
+///
+/// # Panics
+/// If a bit sticks.
+pub fn test_memory() {
+    // SAFETY: the run time's own symbols, whole words; no interrupt is unmasked yet.
+    let holds = unsafe {
+        holds_its_bits(addr_of_mut!(__estack), addr_of_mut!(__sstack))
+            && holds_its_bits(addr_of_mut!(__sdata), addr_of_mut!(__ebss))
+    };
+    assert!(holds, "a bit of the memory sticks");
 }
 
 /// The check of what the run time copies before main.

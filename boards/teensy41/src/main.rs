@@ -9,7 +9,9 @@
 #![no_main]
 
 mod body;
+mod bus;
 mod chip;
+mod fault_input;
 mod port;
 mod pulse_width;
 mod set_up;

@@ -5,34 +5,34 @@ use palpate::device::SupplyRange;
 use palpate::device::drive::{SetPointDrive, SetPointRange};
 use palpate::wire::telemetry::Queue;
 use palpate_bench::cortex::{Below, Cycles};
-use palpate_bench::sensors::{Angles, max_steps};
+use palpate_bench::sensors::{Angles, Bounded, max_steps};
 use palpate_bench::usb::{Cdc, Either};
 use palpate_bench::{
-    Cause, ClockCheck, ClocksDisagree, CycleDelay, Lines, OneChannel, Parts, Port, ReadBack, Settings,
+    Breakable, Cause, ClockCheck, ClocksDisagree, CycleDelay, Lines, OneChannel, Parts, Port, ReadBack, Settings,
 };
 use teensy4_bsp::Interrupt;
-use teensy4_bsp::board::{self, IPG_FREQUENCY, Lpspi, LpspiPins, lpuart};
+use teensy4_bsp::board::{self, IPG_FREQUENCY, LpspiPins, lpuart};
 use teensy4_bsp::hal::flexpwm::SM;
 use teensy4_bsp::hal::gpio::{Input, Output};
 use teensy4_bsp::hal::iomuxc::{self, Config, Hysteresis, PullKeeper};
-use teensy4_bsp::hal::lpspi::MODE_1;
 
 use crate::body::This;
+use crate::bus::Spi;
 use crate::pulse_width::{DWELL, PulseWidth};
 use crate::supply::Volts;
 use crate::ticks::{Clock, Slow, Ticks};
 use crate::watchdog::Rtwdog;
-use crate::{Loop, Message, SHARED, chip, port, usb};
+use crate::{Loop, Message, SHARED, chip, fault_input, port, usb};
 
 /// The settings of this board's loop.
 pub const BENCH: Settings =
     Settings { supply: Some(SupplyRange::TWENTY_FOUR), needs_host: false, ..Settings::new(IPG_FREQUENCY) };
 
-type Sensors = Angles<Lpspi, Output, CycleDelay<Clock>, 3>;
+type Sensors = Angles<Bounded<Spi>, Output, CycleDelay<Clock>, 3>;
 type Amplifier = SetPointDrive<PulseWidth, Output, Output>;
+type Drives = ReadBack<Breakable<[Amplifier; 3]>>;
 /// The parts that the loop runs on.
-pub type Board =
-    Parts<Clock, Ticks, Sensors, ReadBack<[Amplifier; 3]>, OneChannel<Input>, Input, Input, Volts, Output, 3>;
+pub type Board = Parts<Clock, Ticks, Sensors, Drives, OneChannel<Input>, Input, Input, Volts, Output, 3>;
 
 /// Sets all up, in an order in which no motor moves.
 #[inline(never)]
@@ -44,6 +44,7 @@ pub fn set_up(
         panic!("the peripherals are taken here and nowhere else")
     };
     chip::motors_off();
+    chip::test_memory();
     let (flags, memo) = chip::reset();
     let reset = flags.reason(memo);
     let board::Resources { mut pins, mut gpio1, mut gpio2, mut gpio4, pit, lpspi4, lpuart6, adc1, usb, gpt1, .. } =
@@ -76,17 +77,17 @@ pub fn set_up(
     let [a, b, c] = unsafe { [SM::SM0, SM::SM1, SM::SM2].map(|submodule| PulseWidth::start(submodule)) };
     // As WoodenHaptics configures its amplifiers: 10 % is no current, and a pin says which way.
     let range = SetPointRange::TEN_TO_NINETY;
-    let drives = ReadBack::new(
-        [
-            SetPointDrive::with_direction(a, enable_a, way_a, range, DWELL),
-            SetPointDrive::with_direction(b, enable_b, way_b, range, DWELL),
-            SetPointDrive::with_direction(c, enable_c, way_c, range, DWELL),
-        ],
-        chip::reads_enabled as fn() -> bool,
-    );
+    fault_input::start(pins.p33);
+    let drives = [
+        SetPointDrive::with_direction(a, enable_a, way_a, range, DWELL),
+        SetPointDrive::with_direction(b, enable_b, way_b, range, DWELL),
+        SetPointDrive::with_direction(c, enable_c, way_c, range, DWELL),
+    ];
+    let drives = Breakable::new(drives, fault_input::is_active as fn() -> bool);
+    let drives = ReadBack::new(drives, chip::reads_enabled as fn() -> bool);
 
-    let mut bus = board::lpspi(lpspi4, LpspiPins { sdo: pins.p11, sdi: pins.p12, sck: pins.p13 }, 8_000_000);
-    bus.set_mode(MODE_1);
+    let bus = board::lpspi(lpspi4, LpspiPins { sdo: pins.p11, sdi: pins.p12, sck: pins.p13 }, 8_000_000);
+    let bus = Bounded(Spi(bus));
     let mut sensors =
         Angles::new(bus, selects, CycleDelay::new(clock, IPG_FREQUENCY), max_steps(&This, BENCH.bad_frames));
     // One that does not start is a fault of the loop, which names it in its first tick.

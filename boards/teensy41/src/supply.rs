@@ -1,4 +1,4 @@
-//! The motors' supply, by the converter.
+//! The motors' supply, by the converter, which measures its own reference besides.
 
 use imxrt_ral::{adc::ADC1, modify_reg, read_reg, write_reg};
 use palpate_bench::{Divider, Supply};
@@ -7,12 +7,18 @@ use teensy4_bsp::hal::adc::{Adc, AnalogInput, AveragingCount, ResolutionBits};
 /// 12 bits of 3.3 V, behind 100 kΩ and 10 kΩ.
 const DIVIDER: Divider = Divider::new(4_095, 3.3, 100e3, 10e3);
 
+/// The converter's own reference at its input ("ADC_HC0": VREFSH, for a self-test).
+const REFERENCE: u32 = 25;
+/// A full reading, less two hundredths.
+const PLAUSIBLE: core::ops::RangeInclusive<u16> = 4_014..=4_095;
+/// Looks at a conversion, of some 40 ns or more: it takes 20 µs.
+const CONVERSION_LOOKS: u32 = 2_000;
 /// Looks until a calibration must be over, which takes some 6 ms.
 const LOOKS: u32 = 1_000_000;
 
 /// The converter and its pin.
 pub struct Volts {
-    converter: Adc,
+    _converter: Adc,
     input: AnalogInput,
     is_calibrated: bool,
 }
@@ -24,14 +30,29 @@ impl Volts {
         converter.set_averaging(AveragingCount::Avg32);
         let is_calibrated = calibrate();
         converter.set_averaging(AveragingCount::Avg1);
-        Self { converter, input, is_calibrated }
+        convert(REFERENCE);
+        Self { _converter: converter, input, is_calibrated }
     }
+}
+
+fn registers() -> ADC1 {
+    // SAFETY: the owner of the converter's driver calls this, and lets the driver rest.
+    unsafe { ADC1::instance() }
+}
+
+fn convert(channel: u32) {
+    write_reg!(imxrt_ral::adc, registers(), HC0, channel);
+}
+
+/// The conversion, if it is over.
+fn reading() -> Option<u16> {
+    let registers = registers();
+    read_reg!(imxrt_ral::adc, registers, HS, COCO0 != 0).then(|| read_reg!(imxrt_ral::adc, registers, R0) as u16)
 }
 
 /// Calibrates the converter, and waits: the HAL starts a calibration, and aborts it by its next write.
 fn calibrate() -> bool {
-    // SAFETY: the owner of the converter's driver calls this, and uses it only afterwards.
-    let registers = unsafe { ADC1::instance() };
+    let registers = registers();
     write_reg!(imxrt_ral::adc, registers, GS, CALF: 1);
     modify_reg!(imxrt_ral::adc, registers, GC, CAL: 1);
     let is_over = (0..LOOKS).any(|_| read_reg!(imxrt_ral::adc, registers, GC, CAL == 0));
@@ -39,9 +60,15 @@ fn calibrate() -> bool {
 }
 
 impl Supply for Volts {
-    /// Some 20 µs, by the converter's clock of 2.5 MHz.
+    /// Some 20 µs, by the converter's clock of 2.5 MHz; the conversion of the reference was started a tick ago. None if
+    /// either is not over, or if the reference is not a full reading.
     #[inline]
     fn volts(&mut self) -> Option<f32> {
-        self.is_calibrated.then(|| DIVIDER.volts(self.converter.read_blocking(&mut self.input)))
+        let reference = reading();
+        convert(self.input.channel());
+        let pin = (0..CONVERSION_LOOKS).find_map(|_| reading());
+        convert(REFERENCE);
+        let is_good = self.is_calibrated && reference.is_some_and(|reference| PLAUSIBLE.contains(&reference));
+        pin.filter(|_| is_good).map(|pin| DIVIDER.volts(pin))
     }
 }

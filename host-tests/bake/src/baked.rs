@@ -35,9 +35,14 @@ impl BakedPatch {
     pub fn new(patch: &NurbsPatch) -> Result<Self, PatchFault> {
         let baked = Self::without_shape(patch)?;
         let ShapeBounds { second_derivatives, third_derivatives, .. } = baked.shape;
-        let shape =
-            shape::prove(patch.degree, &baked.breaks, &baked.coefficients, baked.orientation, second_derivatives)
-                .ok_or(PatchFault::NoBounds)?;
+        let shape = shape::prove(
+            baked.degree.map(usize::from),
+            &baked.breaks,
+            &baked.coefficients,
+            baked.orientation,
+            second_derivatives,
+        )
+        .ok_or(PatchFault::NoBounds)?;
         Ok(Self { shape: ShapeBounds { third_derivatives, ..shape }, ..baked })
     }
 
@@ -47,7 +52,8 @@ impl BakedPatch {
     /// # Errors
     /// [`PatchFault::Uneven`] where the weights or knots do not fit `f32`.
     pub fn without_shape(patch: &NurbsPatch) -> Result<Self, PatchFault> {
-        let spans = spline::extract(patch).map_err(|spline::UnevenSpan([u, v])| PatchFault::Uneven { u, v })?;
+        let mut spans = spline::extract(patch).map_err(|spline::UnevenSpan([u, v])| PatchFault::Uneven { u, v })?;
+        let degree = spans.lower(patch.degree);
         let spans_v = spans.breaks[1].len() - 1;
         for (span, powers) in spans.powers.iter().enumerate() {
             // Rounded here, once; a number beyond f32 becomes infinite.
@@ -62,13 +68,13 @@ impl BakedPatch {
             BakedCoefficients::Polynomial(entries.map(|entry| entry.truncate().as_vec3().to_array()).collect())
         };
         let orientation = if patch.flip { Orientation::Inward } else { Orientation::Outward };
-        let bounds = bounds::prove(patch.degree, &spans.breaks, &coefficients).ok_or(PatchFault::NoBounds)?;
+        let bounds = bounds::prove(degree, &spans.breaks, &coefficients).ok_or(PatchFault::NoBounds)?;
         let has_crease = [Axis::U, Axis::V].map(|axis| !patch.creases(axis).is_empty());
         let third_derivatives =
-            bounds::prove_third(patch.degree, &spans.breaks, &coefficients, has_crease).ok_or(PatchFault::NoBounds)?;
+            bounds::prove_third(degree, &spans.breaks, &coefficients, has_crease).ok_or(PatchFault::NoBounds)?;
         Ok(Self {
             name: patch.name.clone(),
-            degree: patch.degree.map(|degree| degree as u8),
+            degree: degree.map(|degree| degree as u8),
             breaks: spans.breaks,
             coefficients,
             shape: ShapeBounds { third_derivatives, ..ShapeBounds::unknown(bounds) },

@@ -44,17 +44,21 @@ pub enum BakeError {
     /// The model is refused.
     #[error(transparent)]
     Model(#[from] ModelError),
-    /// A tick on the body may take more evaluations than the limit.
+    /// A tick on the body may take more than the limit.
     #[error(
-        "{file}: a tick may take {evaluations} evaluations, the limit is {limit}: merge faces that meet at a vertex"
+        "{file}: a tick may take {evaluations} evaluations and {cycles} modelled cycles, the limits are {} and {}: \
+         merge faces that meet at a vertex, or lower the degree of the patches",
+        limit.evaluations, limit.cycles
     )]
     Tick {
         /// The model file.
         file: String,
         /// Evaluations of the worst tick.
         evaluations: u32,
+        /// Its modelled cycles.
+        cycles: u32,
         /// The limit.
-        limit: u32,
+        limit: TickLimit,
     },
     /// The library refuses the tables.
     #[error("{file}: {cause}")]
@@ -142,9 +146,11 @@ impl Bake {
             (body, _) = located.map_err(|cause| BakeError::Locator { file: file.clone(), cause })?;
         }
         let tables = body.to_body().map_err(|cause| BakeError::Tables { file: file.clone(), cause })?;
-        let (evaluations, limit) = (tables.worst_tick(TickWork::EACH).cost, self.tick_limit.evaluations);
-        if evaluations > limit {
-            return Err(BakeError::Tick { file, evaluations, limit });
+        let limit = self.tick_limit;
+        let tables = tables.fitted(limit);
+        if !tables.fits(limit) {
+            let (evaluations, cycles) = (tables.worst_tick(TickWork::EACH).cost, tables.worst_cycles());
+            return Err(BakeError::Tick { file, evaluations, cycles, limit });
         }
         let name = self.model.file_name().unwrap_or(self.model.as_os_str());
         let out = folder.as_ref().join(name).with_extension("rs");

@@ -27,6 +27,7 @@ pub mod modes;
 pub mod parallel;
 mod patch;
 mod random;
+pub mod ritz;
 pub mod shape;
 pub mod sides;
 pub mod source;

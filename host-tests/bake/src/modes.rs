@@ -12,11 +12,14 @@
 //! bump = [0, 0, 1]                     # optional: plus bump (1 - |X - at|²/radius²)³ within the radius
 //! at = [0.0, 0.0, 0.02]
 //! radius = 0.02
+//! frequency = 12.0                     # Hz; needed where the body moves by itself, as are the next two
+//! mass = 0.05                          # kg, where the most moved point has the displacement 1
+//! damping = 0.1                        # ratio, 1 is critical
 //! ```
 
 use crate::model::{Model, message};
 use glam::{DMat3, DVec3};
-use palpate::field::{Bump, FieldBounds, MAX_MODES, Mode, Quadratic};
+use palpate::field::{Bump, FieldBounds, MAX_MODES, Modal, Mode, Quadratic};
 use serde::Deserialize;
 use std::path::Path;
 use thiserror::Error;
@@ -71,6 +74,16 @@ pub enum ModesError {
         name: String,
         /// The remedy.
         remedy: &'static str,
+    },
+    /// A mode that does not say how it moves.
+    #[error("{file}: {name}: no {key}: a body that moves by itself needs frequency, mass and damping of each mode")]
+    NoMotion {
+        /// The file.
+        file: String,
+        /// The mode.
+        name: String,
+        /// Which number.
+        key: &'static str,
     },
     /// Not ten vectors.
     #[error("{file}: {name}: poly has {count} entries: 10, for 1 x y z xx xy xz yy yz zz")]
@@ -127,6 +140,34 @@ pub fn read(path: &Path, model: &Model) -> Result<Vec<Mode>, ModesError> {
 /// # Errors
 /// The first thing wrong with it.
 pub fn parse(text: &str, file: &str, model: &Model) -> Result<Vec<Mode>, ModesError> {
+    Ok(parse_all(text, file, model)?.into_iter().map(|(mode, _)| mode).collect())
+}
+
+/// The modes of a text, each with its motion.
+///
+/// # Errors
+/// The first thing wrong with it.
+pub fn parse_moving(text: &str, file: &str, model: &Model) -> Result<Vec<(Mode, Modal)>, ModesError> {
+    let moving = |(mode, motion): (Mode, Motion)| {
+        let need = |key, value: Option<f64>| {
+            let missing = || ModesError::NoMotion { file: file.to_owned(), name: motion.name.clone(), key };
+            value.filter(|value| key != "frequency" || *value > 0.0).ok_or_else(missing)
+        };
+        let [frequency, mass, damping] =
+            [need("frequency", motion.frequency)?, need("mass", motion.mass)?, need("damping", motion.damping)?];
+        Ok((mode, Modal::new(frequency as f32, mass as f32, damping as f32)))
+    };
+    parse_all(text, file, model)?.into_iter().map(moving).collect()
+}
+
+struct Motion {
+    name: String,
+    frequency: Option<f64>,
+    mass: Option<f64>,
+    damping: Option<f64>,
+}
+
+fn parse_all(text: &str, file: &str, model: &Model) -> Result<Vec<(Mode, Motion)>, ModesError> {
     let owned = || file.to_owned();
     let raw: RawModes =
         toml::from_str(text).map_err(|error| ModesError::Syntax { file: owned(), message: message(text, &error) })?;
@@ -175,7 +216,8 @@ pub fn parse(text: &str, file: &str, model: &Model) -> Result<Vec<Mode>, ModesEr
         let bump =
             has_bump.then(|| (DVec3::from_array(mode.bump), DVec3::from_array(mode.at) - model.centre, mode.radius));
         let field = Field::new(poly.map(DVec3::from_array), DVec3::from_array(mode.centre) - model.centre, half);
-        Ok(field.baked(bump, raw.budget, hull(model)))
+        let motion = Motion { name, frequency: mode.frequency, mass: mode.mass, damping: mode.damping };
+        Ok((field.baked(bump, raw.budget, hull(model)), motion))
     });
     modes.collect()
 }

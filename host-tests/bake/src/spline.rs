@@ -16,6 +16,10 @@ const LEAST_WEIGHT: f64 = 1e-3;
 /// Of the largest coordinate: a few hundred units in the last place of `f64`, a millionth of one of `f32`.
 const NOISE: f64 = 1e-13;
 
+/// Smallest relevant contribution of a power, relative to the largest value: a sixth of a unit in the last place of
+/// `f32`. The tables leave smaller ones out.
+pub const BELOW_SINGLE: f64 = 1e-8;
+
 /// All spans of a patch, homogeneous: `(w x, w y, w z, w)`.
 #[derive(Clone, Debug)]
 pub struct Spans {
@@ -23,6 +27,48 @@ pub struct Spans {
     pub breaks: [Vec<f32>; 2],
     /// Span `(i, j)` is entry `i · spans_v + j`: `powers[k · (degree_v + 1) + l]` belongs to `sᵏ tˡ`.
     pub powers: Vec<Vec<DVec4>>,
+}
+
+impl Spans {
+    /// Leaves out the highest powers of a parameter, down to the first, as long as they add less than `f32` can tell on
+    /// every span, relative to the largest coordinate and weight: a plane that is given as a bicubic patch is bilinear.
+    /// Returns the degree that is left.
+    pub fn lower(&mut self, mut degree: [usize; 2]) -> [usize; 2] {
+        let Self { breaks, powers: spans } = self;
+        let half = |axis: usize, span: usize| 0.5 * f64::from(breaks[axis][span + 1] - breaks[axis][span]);
+        let spans_v = breaks[1].len() - 1;
+        // Where the span is widest, a power adds its coefficient times these.
+        let reach = |span: usize, [k, l]: [usize; 2]| {
+            power_of(half(0, span / spans_v), k) * power_of(half(1, span % spans_v), l)
+        };
+        let linear = |(span, powers): (usize, &Vec<DVec4>)| {
+            let along = [(1, [0, 1]), (degree[1] + 1, [1, 0])];
+            along.iter().fold(powers[0].abs(), |sum, (index, power)| sum + powers[*index].abs() * reach(span, *power))
+        };
+        let largest = spans.iter().enumerate().map(linear).fold(DVec4::ZERO, DVec4::max);
+        let coordinate = largest.truncate().max_element();
+        let least = DVec4::new(coordinate, coordinate, coordinate, largest.w) * BELOW_SINGLE;
+        for axis in [0, 1] {
+            while degree[axis] > 1 {
+                let (columns, highest) = (degree[1] + 1, degree[axis]);
+                let power = |index: usize| [index / columns, index % columns];
+                let is_small = |(span, powers): (usize, &Vec<DVec4>)| {
+                    let of_it = powers.iter().enumerate().filter(|(index, _)| power(*index)[axis] == highest);
+                    let added: DVec4 = of_it.map(|(index, entry)| entry.abs() * reach(span, power(index))).sum();
+                    added.cmple(least).all()
+                };
+                if !spans.iter().enumerate().all(is_small) {
+                    break;
+                }
+                for powers in spans.iter_mut() {
+                    let kept = powers.iter().enumerate().filter(|(index, _)| power(*index)[axis] < highest);
+                    *powers = kept.map(|(_, entry)| *entry).collect();
+                }
+                degree[axis] -= 1;
+            }
+        }
+        degree
+    }
 }
 
 /// Index of a span, along `u` and `v`, whose weights are too uneven.
@@ -187,5 +233,54 @@ impl BakedCoefficients {
             Self::Polynomial(entries) => size_of_val(entries.as_slice()),
             Self::Rational(entries) => size_of_val(entries.as_slice()),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+
+    /// A plane of 60 mm by 40 mm as a bicubic patch of two spans along `u`, but for the height of its last corner.
+    fn plane(height: f64) -> NurbsPatch {
+        let (knots_u, knots_v) = (vec![0.0, 0.0, 0.0, 0.0, 0.5, 1.0, 1.0, 1.0, 1.0], crate::patch::bezier(3));
+        // Greville's abscissae make it even.
+        let along_u = [0.0, 1.0 / 6.0, 0.5, 5.0 / 6.0, 1.0];
+        let mut points: Vec<DVec3> = along_u
+            .iter()
+            .flat_map(|u| (0..4).map(move |v| DVec3::new(0.06 * u, 0.04 * f64::from(v) / 3.0, 0.0)))
+            .collect();
+        points[19].z = height;
+        NurbsPatch {
+            name: None,
+            degree: [3, 3],
+            knots: [knots_u, knots_v],
+            counts: [5, 4],
+            weights: vec![1.0; points.len()],
+            points,
+            flip: false,
+        }
+    }
+
+    #[test]
+    fn degrees_that_add_nothing_are_left_out_and_no_others() {
+        let lowered = |height: f64| {
+            let patch = plane(height);
+            let Ok(mut spans) = extract(&patch) else { panic!("a plane is even") };
+            let degree = spans.lower(patch.degree);
+            assert!(spans.powers.iter().all(|powers| powers.len() == (degree[0] + 1) * (degree[1] + 1)));
+            (degree, spans)
+        };
+        let (degree, spans) = lowered(0.0);
+        assert_eq!((degree, spans.powers.len()), ([1, 1], 2));
+        // The middle of the first span, and its tangents.
+        let [middle, along_v, along_u, twist] = spans.powers[0][..] else { panic!("four powers") };
+        let expected = [[0.015, 0.02], [0.0, 0.04], [0.06, 0.0], [0.0, 0.0]];
+        for (found, [x, y]) in [middle, along_v, along_u, twist].into_iter().zip(expected) {
+            assert!((found.truncate() - DVec3::new(x, y, 0.0)).length() < 1e-15, "{found}");
+        }
+        // A part in 10⁸ of the size is 0.6 nm; a corner adds less than its height to any power.
+        assert_eq!(lowered(5e-10).0, [1, 1]);
+        assert_eq!(lowered(1e-6).0, [3, 3]);
     }
 }

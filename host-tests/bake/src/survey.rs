@@ -123,7 +123,7 @@ impl Survey {
             record: RECORD_BYTES,
         };
         Self {
-            degree: patch.degree,
+            degree: baked.degree.map(usize::from),
             spans: baked.breaks.each_ref().map(|breaks| breaks.len() - 1),
             rational: patch.is_rational(),
             size,

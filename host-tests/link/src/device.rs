@@ -2,7 +2,7 @@
 
 use crate::{Error, Line, Port};
 use palpate::wire::frame::{self, DELIMITER, MAX_FRAME, Received, Receiver};
-use palpate::wire::{Answer, Calibrated, DeviceMessage, Hello, HostMessage, PROTOCOL, Reading, Record, View};
+use palpate::wire::{Answer, Calibrated, DeviceMessage, Dial, Hello, HostMessage, PROTOCOL, Reading, Record, View};
 use std::time::{Duration, Instant};
 
 /// The device hears from this program at least so often while a call runs, and at each call that comes later than this
@@ -33,6 +33,8 @@ pub struct Device<L = Port> {
     pub(crate) answer: Option<Answer>,
     pub(crate) view: Option<(View, Instant)>,
     pub(crate) views: u64,
+    pub(crate) dial: Option<(Dial, Instant)>,
+    pub(crate) dials: u64,
     pub(crate) record: Option<Record>,
     /// Of a device that is being set up.
     pub(crate) reading: Option<Reading>,
@@ -75,6 +77,8 @@ impl<L: Line> Device<L> {
             answer: None,
             view: None,
             views: 0,
+            dial: None,
+            dials: 0,
             record: None,
             reading: None,
             calibrated: None,
@@ -96,6 +100,7 @@ impl<L: Line> Device<L> {
     /// A line that broke, a device that is silent or not understood, or one of another version.
     pub fn greet(&mut self) -> Result<Hello, Error> {
         (self.heard, self.view, self.answer, self.record) = (None, None, None, None);
+        self.dial = None;
         let (began, bytes, frames) = (self.line.now(), self.bytes, self.frames);
         // What was cut off before ends here.
         self.send_bytes(&[DELIMITER])?;
@@ -242,6 +247,10 @@ impl<L: Line> Device<L> {
             }
             DeviceMessage::Reading(reading) => self.reading = Some(reading),
             DeviceMessage::Calibrated(calibrated) => self.calibrated = Some(calibrated),
+            DeviceMessage::Dial(dial) => {
+                self.dial = Some((dial, self.line.now()));
+                self.dials += 1;
+            }
             // Of a device that is being set up: `palpate commission` reads them.
             DeviceMessage::Marked(_) => {}
         }

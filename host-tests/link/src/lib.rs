@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod device;
+mod dial;
 mod error;
 mod line;
 mod orders;
@@ -13,10 +14,10 @@ pub use device::{ALIVE, Device};
 pub use error::Error;
 pub use line::Line;
 pub use orders::{ANSWER, TRIES};
-pub use palpate::render::Friction;
+pub use palpate::render::{DialFriction, Ends, FeelPart, Friction, Notch, Spring, Wave};
 pub use palpate::scene::{BodyPose, Command, SceneError};
 pub use palpate::servo::{Fault, Phase};
 pub use palpate::track::Contact;
-pub use palpate::wire::{Calibrated, Hello, PROTOCOL, Record, Refused, UploadError, View};
+pub use palpate::wire::{Calibrated, DIALS_HZ, Dial, Hello, KeptFeel, PROTOCOL, Record, Refused, UploadError, View};
 pub use port::Port;
 pub use read::SILENCE;

@@ -178,5 +178,6 @@ const fn name(order: &Command) -> &'static str {
         Command::Push { .. } => "push",
         Command::Take { .. } => "take",
         Command::PutBack { .. } => "put back",
+        Command::Feel(_) => "feel",
     }
 }

@@ -8,7 +8,7 @@ use std::time::Duration;
 /// How long the stop is repeated without a confirmation.
 const STOPS: Duration = Duration::from_millis(500);
 /// How long a person is waited for who is to confirm something: longer than the device waits.
-const CONFIRMED: Duration = Duration::from_secs(35);
+pub(crate) const CONFIRMED: Duration = Duration::from_secs(35);
 
 impl<L: Line> Device<L> {
     /// Stops the device, in any state, until it is reset: repeats the message until the device confirms the stop. A

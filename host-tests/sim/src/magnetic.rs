@@ -192,11 +192,11 @@ impl Counter for Cycles {
 }
 
 /// The boards' driver on that bus.
-pub type Joints = Angles<Bus, Select, CycleDelay<Cycles>, 3>;
+pub type Joints<const JOINTS: usize = 3> = Angles<Bus, Select, CycleDelay<Cycles>, JOINTS>;
 
-/// Three sensors at rest at angle zero that were just switched on, and their driver on a core of `frequency` Hz, to
+/// Sensors at rest at angle zero that were just switched on, and their driver on a core of `frequency` Hz, to
 /// which a look at its counter takes `look` cycles.
-pub fn table(frequency: u32, look: u64) -> (SharedTable, Joints) {
+pub fn table<const JOINTS: usize>(frequency: u32, look: u64) -> (SharedTable, Joints<JOINTS>) {
     let chip = Chip {
         angle: 0,
         field: 1.0,
@@ -216,13 +216,13 @@ pub fn table(frequency: u32, look: u64) -> (SharedTable, Joints) {
         cycles: 0,
         frequency: f64::from(frequency),
         look,
-        chips: vec![chip; 3],
+        chips: vec![chip; JOINTS],
         last_clock: 0,
         frames: 0,
         least: [f64::INFINITY; 3],
     }));
-    let selects = [0, 1, 2].map(|joint| Select(Rc::clone(&shared), joint));
+    let selects = core::array::from_fn(|joint| Select(Rc::clone(&shared), joint));
     let delay = CycleDelay::new(Cycles(Rc::clone(&shared)), frequency);
-    let joints = Angles::new(Bus(Rc::clone(&shared)), selects, delay, [4_096; 3]);
+    let joints = Angles::new(Bus(Rc::clone(&shared)), selects, delay, [4_096; JOINTS]);
     (shared, joints)
 }

@@ -9,12 +9,13 @@ use palpate::device::drive::{SetPointDrive, SetPointRange};
 use palpate::device::{Counts, Kinematics, StopSearch, SupplyRange};
 use palpate::math::vec3;
 use palpate::patch::SplinePatch;
-use palpate::servo::{Fault, Guard, PatchWitness, Phase, ResetReason, Servo, ServoState, Unguarded};
-use palpate::wire::Record;
+use palpate::servo::{Fault, Guard, Heartbeat, PatchWitness, Phase, ResetReason, Servo, ServoState, Unguarded};
 use palpate::wire::telemetry::{Consumer, Queue};
+use palpate::wire::{HostMessage, PROTOCOL, Record, frame};
 use palpate_bench::sensors::{BadFrame, Counters, Readings, Sensors, max_step};
 use palpate_bench::{
-    Bench, Counter, Felt, Lines, Mailbox, OneChannel, Parts, ReadBack, Settings, Supply, Timer, TwoChannels,
+    Bench, Counter, Felt, Idle, Lines, Mailbox, OneChannel, Parts, Port, ReadBack, Settings, Supply, Timer,
+    TwoChannels, Watchdog,
 };
 use std::cell::RefCell;
 use std::convert::Infallible;
@@ -85,6 +86,8 @@ pub struct World {
     pub enables: [bool; 3],
     /// Whether something holds one of them high.
     pub is_enable_shorted: bool,
+    /// Whether each motor's winding is open.
+    pub open_windings: [bool; 3],
     /// Level of the LED's line.
     pub light: bool,
     /// Value of its counter.
@@ -108,7 +111,11 @@ impl World {
     pub fn currents(&self) -> [f64; 3] {
         core::array::from_fn(|joint| {
             let is_driven = self.enables[joint] && self.is_powered() && self.amplifiers_well;
-            if is_driven { ((self.widths[joint] - 0.5) / 0.4).clamp(-1.0, 1.0) } else { 0.0 }
+            if is_driven && !self.open_windings[joint] {
+                ((self.widths[joint] - 0.5) / 0.4).clamp(-1.0, 1.0)
+            } else {
+                0.0
+            }
         })
     }
 }
@@ -201,34 +208,35 @@ pub struct Volts(Shared);
 /// Three 16-bit timers.
 pub struct Timers(Shared);
 
-impl Readings<3> for Timers {
-    fn readings(&mut self) -> [u32; 3] {
+impl<const JOINTS: usize> Readings<JOINTS> for Timers {
+    fn readings(&mut self) -> [u32; JOINTS] {
         let world = self.0.borrow();
         let counts = world.plant.counts();
         core::array::from_fn(|joint| (counts[joint] + world.turned[joint]) as u32 & 0xffff)
     }
 
-    fn caught(&mut self) -> [Option<u32>; 3] {
-        std::mem::take(&mut self.0.borrow_mut().caught).map(|count| count.map(|count| count as u32 & 0xffff))
+    fn caught(&mut self) -> [Option<u32>; JOINTS] {
+        let caught = std::mem::take(&mut self.0.borrow_mut().caught);
+        core::array::from_fn(|joint| caught[joint].map(|count| count as u32 & 0xffff))
     }
 }
 
 /// The sensors: counters, or magnetic sensors of 2¹⁴ counts a turn on the boards' driver.
-enum Reader {
-    Counters(Counters<Timers, 3>),
-    Magnetic(SharedTable, Joints),
+enum Reader<const JOINTS: usize> {
+    Counters(Counters<Timers, JOINTS>),
+    Magnetic(SharedTable, Joints<JOINTS>),
 }
 
 /// Sensors that deliver some bad frames, and that take time.
-pub struct Spoilt {
+pub struct Spoilt<const JOINTS: usize> {
     world: Shared,
-    reader: Reader,
+    reader: Reader<JOINTS>,
     /// Difference of counters and joints at the first reading: in most tests the loop is homed from the start.
-    ahead: Option<[i32; 3]>,
+    ahead: Option<[i32; JOINTS]>,
 }
 
-impl Sensors<3> for Spoilt {
-    fn read(&mut self) -> Result<[Counts; 3], BadFrame> {
+impl<const JOINTS: usize> Sensors<JOINTS> for Spoilt<JOINTS> {
+    fn read(&mut self) -> Result<[Counts; JOINTS], BadFrame> {
         {
             let mut world = self.world.borrow_mut();
             world.cycles = world.cycles.wrapping_add(world.reading);
@@ -257,15 +265,15 @@ impl Sensors<3> for Spoilt {
         Ok(core::array::from_fn(|joint| Counts(counts[joint].0 - ahead[joint])))
     }
 
-    fn marks(&mut self) -> [Option<Counts>; 3] {
-        let Reader::Counters(counters) = &mut self.reader else { return [None; 3] };
-        let (marks, ahead) = (counters.marks(), self.ahead.unwrap_or_default());
+    fn marks(&mut self) -> [Option<Counts>; JOINTS] {
+        let Reader::Counters(counters) = &mut self.reader else { return [None; JOINTS] };
+        let (marks, ahead) = (counters.marks(), self.ahead.unwrap_or([0; JOINTS]));
         core::array::from_fn(|joint| marks[joint].map(|mark| Counts(mark.0 - ahead[joint])))
     }
 
-    fn gains(&self) -> [u8; 3] {
+    fn gains(&self) -> [u8; JOINTS] {
         match &self.reader {
-            Reader::Counters(_) => [0; 3],
+            Reader::Counters(_) => [0; JOINTS],
             Reader::Magnetic(_, angles) => angles.gains(),
         }
     }
@@ -273,24 +281,62 @@ impl Sensors<3> for Spoilt {
 
 type Amplifier = SetPointDrive<Width, Out>;
 /// The amplifiers, whose enable lines are read back.
-type Amplifiers = ReadBack<[Amplifier; 3], Box<dyn Fn() -> bool>>;
+type Amplifiers<const JOINTS: usize> = ReadBack<[Amplifier; JOINTS], Box<dyn Fn() -> bool>>;
 /// All that a board has for the loop.
-pub type SimulatedBoard =
-    Parts<SimulatedClock, Interrupts, Spoilt, Amplifiers, TwoChannels<In, In>, In, In, Volts, Out, 3>;
+pub type SimulatedBoard<const JOINTS: usize = 3> = Parts<
+    SimulatedClock,
+    Interrupts,
+    Spoilt<JOINTS>,
+    Amplifiers<JOINTS>,
+    TwoChannels<In, In>,
+    In,
+    In,
+    Volts,
+    Out,
+    JOINTS,
+>;
+
+/// The bytes of a host.
+struct Sent(std::vec::IntoIter<u8>);
+
+impl Port for Sent {
+    fn send(&mut self, _: u8) -> bool {
+        true
+    }
+
+    fn receive(&mut self) -> Option<u8> {
+        self.0.next()
+    }
+}
+
+/// No watchdog.
+struct Unwatched;
+
+impl Watchdog for Unwatched {
+    fn feed(&mut self) {}
+}
 
 /// A servo that a test made, whether it could not be made with the calibration that is kept, and its wiring.
-pub struct Made<K: 'static, G = Unguarded>(pub Servo<'static, SplinePatch<'static>, K, 3, G>, pub bool, pub Wiring<3>);
+pub struct Made<K: 'static, G = Unguarded, const JOINTS: usize = 3>(
+    pub Servo<'static, SplinePatch<'static>, K, JOINTS, G>,
+    pub bool,
+    pub Wiring<JOINTS>,
+);
 
-impl<K: Kinematics<3> + 'static, G: Guard<3> + 'static> Felt<3> for Made<K, G> {
+impl<K, G, const JOINTS: usize> Felt<JOINTS> for Made<K, G, JOINTS>
+where
+    K: Kinematics<JOINTS> + 'static,
+    G: Guard<JOINTS> + 'static,
+{
     type Surface = SplinePatch<'static>;
     type Mechanism = K;
     type Guard = G;
 
-    fn servo(&self) -> &Servo<'static, SplinePatch<'static>, K, 3, G> {
+    fn servo(&self) -> &Servo<'static, SplinePatch<'static>, K, JOINTS, G> {
         &self.0
     }
 
-    fn wiring(&self) -> Wiring<3> {
+    fn wiring(&self) -> Wiring<JOINTS> {
         self.2
     }
 
@@ -300,11 +346,11 @@ impl<K: Kinematics<3> + 'static, G: Guard<3> + 'static> Felt<3> for Made<K, G> {
 }
 
 /// The loop on the simulated bench.
-pub struct Rig<K: Kinematics<3> + 'static, G: Guard<3> + 'static = Unguarded> {
+pub struct Rig<K: Kinematics<JOINTS> + 'static, G: Guard<JOINTS> + 'static = Unguarded, const JOINTS: usize = 3> {
     /// The far side of the pins.
     pub world: Shared,
     /// The loop.
-    pub bench: Bench<'static, Made<K, G>, SimulatedBoard, 3>,
+    pub bench: Bench<'static, Made<K, G, JOINTS>, SimulatedBoard<JOINTS>, JOINTS>,
     /// Commands to the loop.
     pub mailbox: &'static Mailbox,
     records: Option<Consumer<'static, Record>>,
@@ -339,11 +385,11 @@ pub fn held_at(place: Vector) -> Plant {
 }
 
 /// A device at the pins of a board.
-pub fn wired<K: Kinematics<3> + 'static, G: Guard<3> + 'static>(
-    servo: &Servo<'static, SplinePatch<'static>, K, 3, G>,
+pub fn wired<K: Kinematics<JOINTS> + 'static, G: Guard<JOINTS> + 'static, const JOINTS: usize>(
+    servo: &Servo<'static, SplinePatch<'static>, K, JOINTS, G>,
     plant: Plant,
     settings: &Settings,
-) -> (Shared, SimulatedBoard) {
+) -> (Shared, SimulatedBoard<JOINTS>) {
     let world = World {
         plant,
         button: false,
@@ -363,6 +409,7 @@ pub fn wired<K: Kinematics<3> + 'static, G: Guard<3> + 'static>(
         widths: [0.5; 3],
         enables: [false; 3],
         is_enable_shorted: false,
+        open_windings: [false; 3],
         light: false,
         // Near its end, so that it wraps.
         cycles: u32::MAX - 1_000,
@@ -397,7 +444,7 @@ pub fn wired<K: Kinematics<3> + 'static, G: Guard<3> + 'static>(
         counter: SimulatedClock(of()),
         timer: Interrupts,
         sensors: Spoilt { world: of(), reader: Reader::Counters(Counters::new(Timers(of()), steps)), ahead: None },
-        drives: ReadBack::new([amplifier(0), amplifier(1), amplifier(2)], reads_enabled),
+        drives: ReadBack::new(core::array::from_fn(amplifier), reads_enabled),
         lines: Lines {
             enable: TwoChannels::new(
                 OneChannel { pin: In(of(), |world| world.button), pressed_level: true },
@@ -408,7 +455,7 @@ pub fn wired<K: Kinematics<3> + 'static, G: Guard<3> + 'static>(
                 RATE as f32,
             ),
             stop: In(of(), |world| world.stop_open),
-            ready: ready.map(|level| In(of(), level)),
+            ready: core::array::from_fn(|joint| In(of(), ready[joint])),
             supply: Volts(of()),
         },
         light: Out(of(), |world, level| world.light = level),
@@ -416,13 +463,13 @@ pub fn wired<K: Kinematics<3> + 'static, G: Guard<3> + 'static>(
     (Rc::clone(&world), board)
 }
 
-impl<K: Kinematics<3> + 'static, G: Guard<3> + 'static> Rig<K, G> {
+impl<K: Kinematics<JOINTS> + 'static, G: Guard<JOINTS> + 'static, const JOINTS: usize> Rig<K, G, JOINTS> {
     /// A servo at the pins of a board that was reset for this reason.
     ///
     /// # Panics
     /// As [`Bench::new`].
     pub fn new(
-        servo: Servo<'static, SplinePatch<'static>, K, 3, G>,
+        servo: Servo<'static, SplinePatch<'static>, K, JOINTS, G>,
         plant: Plant,
         settings: &Settings,
         reset: ResetReason,
@@ -431,7 +478,7 @@ impl<K: Kinematics<3> + 'static, G: Guard<3> + 'static> Rig<K, G> {
     }
 
     /// As [`Rig::new`], of a servo that was made with a calibration or without.
-    pub fn made(made: Made<K, G>, plant: Plant, settings: &Settings, reset: ResetReason) -> Self {
+    pub fn made(made: Made<K, G, JOINTS>, plant: Plant, settings: &Settings, reset: ResetReason) -> Self {
         let (world, board) = wired(&made.0, plant, settings);
         // They live as long as the test, as a board's statics do.
         let mailbox: &'static Mailbox = Box::leak(Box::new(Mailbox::new()));
@@ -470,6 +517,21 @@ impl<K: Kinematics<3> + 'static, G: Guard<3> + 'static> Rig<K, G> {
         core::iter::from_fn(|| records.dequeue()).last()
     }
 
+    /// A command of a host, which greets first, over the board's port.
+    ///
+    /// # Panics
+    /// If it does not fit a frame.
+    pub fn send(&self, command: HostMessage) {
+        let mut buffer = [0; frame::MAX_FRAME];
+        let mut bytes = frame::pack(&HostMessage::Hello { protocol: PROTOCOL }, &mut buffer).unwrap().to_vec();
+        bytes.extend_from_slice(frame::pack(&command, &mut buffer).unwrap());
+        let (count, mut line) = (bytes.len(), Sent(bytes.into_iter()));
+        let mut queue = Queue::<_, 2>::new();
+        let (_, records) = queue.split();
+        let mut idle = Idle::new(self.mailbox, records, Heartbeat::default());
+        (0..count).for_each(|_| idle.step(&mut line, &mut Unwatched));
+    }
+
     /// A tick of the loop and a period of the device.
     pub fn tick(&mut self) {
         self.bench.tick();
@@ -504,7 +566,7 @@ impl<K: Kinematics<3> + 'static, G: Guard<3> + 'static> Rig<K, G> {
     }
 
     /// The servo's state.
-    pub fn state(&self) -> &ServoState<3, PatchWitness, G::State> {
+    pub fn state(&self) -> &ServoState<JOINTS, PatchWitness, G::State> {
         self.bench.state()
     }
 

@@ -1,6 +1,6 @@
 //! Budgets of counted instructions, one file a core in `host-tests/budgets/`.
 
-use crate::firmware::{Board, Pace, Program, Progress, SetUpError};
+use crate::firmware::{Board, Choice, Pace, Program, Progress, SetUpError};
 use crate::repository::{self, NoRepository};
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -109,6 +109,14 @@ pub fn measure(board: Board, progress: &Progress) -> Result<Figures, BudgetError
     all.0.extend(file.0);
     for scene in ["scene", "scene-path", "scene-free", "scene-two", "scene-four", "scene-sixteen"] {
         all.0.extend(figures(&Program::prepare(board, "scene_budget", &[scene], progress)?.run(Pace::Counting)?)?.0);
+    }
+    // The foam's modes move the body of these images; one core alone, for they take minutes to build.
+    if board == Board::M4 {
+        let body = repository::root()?.join("boards/emulated/soft.rs");
+        let soft = Choice { board, body: Some(body), ..Choice::default() };
+        for modes in ["soft", "soft-four", "soft-eight"] {
+            all.0.extend(figures(&Program::prepare_with(&soft, "budget", &[modes], progress)?.run(Pace::Counting)?)?.0);
+        }
     }
     all.0.extend(protected);
     all.0.extend(folded);

@@ -77,6 +77,11 @@ impl TypedValueParser for NameOrFile {
             })?;
             return Ok(Some(own_device(&own, &path.display().to_string())));
         }
+        let is_path = path.extension().is_some() || path.components().count() > 1;
+        if is_path && named(&value.to_string_lossy()).is_none() {
+            let what = format!("{}: the name of a device file ends in .toml; rename it\n", path.display());
+            return Err(clap::Error::raw(clap::error::ErrorKind::ValueValidation, what).with_cmd(command));
+        }
         // Every other name is the table's.
         PossibleValuesParser::new(self.names()).map(|name| named(&name)).parse_ref(command, argument, value)
     }

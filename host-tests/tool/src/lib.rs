@@ -30,5 +30,4 @@ pub mod report;
 pub mod repository;
 pub mod simulation;
 pub mod talk;
-pub mod tick_cost;
 pub mod timed_tests;

@@ -59,7 +59,7 @@ fn main() -> ExitCode {
         Command::Budgets(arguments) => budgets::run(&arguments),
         Command::CLibrary(arguments) => c_library::run(&arguments),
         Command::Cycles(arguments) => cycles::run(&arguments),
-        Command::Faults(arguments) => faults::run(&arguments),
+        Command::Faults(arguments) => Ok(faults::run(&arguments)),
         Command::Closest(arguments) => closest::run(&arguments),
         Command::Sim(arguments) => sim::run(&arguments),
         Command::Figures(arguments) => figures::run(&arguments),

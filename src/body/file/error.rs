@@ -182,6 +182,16 @@ pub enum FileError {
         /// The vertex at which it takes them, and the number of its spokes.
         vertex: Option<(u16, u16)>,
     },
+    /// A tick may take more cycles than the application grants, even with [`super::super::Effort::ONE`].
+    #[error(
+        "a tick may take {cycles} modelled cycles, the limit is {limit}: lower the degree of its patches, or raise the limit if the board is fast enough"
+    )]
+    Cycles {
+        /// [`super::super::Body::worst_cycles`].
+        cycles: u32,
+        /// [`super::super::TickLimit`].
+        limit: u32,
+    },
     /// The numbers are not those that were baked.
     #[error("the CRC-32 of the tables is {found:08x}, not {stated:08x} as baked")]
     Tables {

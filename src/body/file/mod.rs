@@ -101,7 +101,8 @@ impl<'a> Body<'a> {
     /// The body of a file, with every number, index and list checked; `buffer` holds its faces and edges.
     ///
     /// The time is bounded by the length of the file: a record takes a bounded number of steps and borders, and no two
-    /// records share coefficients. A tick on the body is bounded too, by [`TickLimit::BENCH`].
+    /// records share coefficients. A tick on the body is bounded too, by [`TickLimit::BENCH`]: its effort is lowered until
+    /// it fits ([`Body::fitted`]).
     pub fn from_bytes(bytes: &'a [u8], buffer: BodyBuffer<'a>) -> Result<Self, FileError> {
         Self::from_bytes_with(bytes, buffer, TickLimit::BENCH, &mut || ())
     }
@@ -147,10 +148,13 @@ impl<'a> Body<'a> {
             crc: None,
         };
         let body = tables.try_checked_without_crc()?;
-        let WorstTick { cost: evaluations, vertex } = body.worst_tick_with(pause);
+        let (body, WorstTick { cost: evaluations, vertex }, cycles) = body.fitted_with(limit, pause);
         if evaluations > limit.evaluations {
             let spokes = |index: u16| Some((index, body.vertices.get(usize::from(index))?.spokes));
             return Err(FileError::Tick { evaluations, limit: limit.evaluations, vertex: vertex.and_then(spokes) });
+        }
+        if cycles > limit.cycles {
+            return Err(FileError::Cycles { cycles, limit: limit.cycles });
         }
         pause();
         // The words equal those of the same body as a static: the result is the baked CRC.

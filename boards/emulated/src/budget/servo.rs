@@ -18,7 +18,13 @@ const TICKS: u32 = 100_000;
 pub(super) const APPROACH: u32 = 20;
 
 /// The name of the figures.
-const NAME: &str = if cfg!(feature = "folded") {
+const NAME: &str = if cfg!(feature = "soft-eight") {
+    "servo tick, a soft body of 8 modes"
+} else if cfg!(feature = "soft-four") {
+    "servo tick, a soft body of 4 modes"
+} else if cfg!(feature = "soft") {
+    "servo tick, a soft body of 1 mode"
+} else if cfg!(feature = "folded") {
     "servo tick, folded back"
 } else if cfg!(feature = "protected") {
     "servo tick, protected"
@@ -90,6 +96,7 @@ pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
         walk.counts(probe(0) + SETTINGS.body_origin_m);
     }
     let mut ticks = Tally::new();
+    let mut touching = Tally::new();
     #[cfg(feature = "folded")]
     let mut gives_way = GivesWay([0.0; 3]);
     let (mut touched, mut met) = (0, [0_u32; 3]);
@@ -106,10 +113,16 @@ pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
         let ((), instructions) = counter.count(|| tick(&mut state, input));
         ticks.add(instructions);
         touched += u32::from(state.contact() == Contact::Touching);
+        if cfg!(feature = "soft") && state.contact() == Contact::Touching {
+            touching.add(instructions);
+        }
         let feature = state.witness().feature();
         met[usize::from(feature >> 14)] |= 1 << (feature & 31);
     }
     ticks.print(NAME);
+    if cfg!(feature = "soft") {
+        touching.print_as(NAME, "touched");
+    }
     if state.fault().is_some() {
         return Err("the servo found a fault on its path");
     }

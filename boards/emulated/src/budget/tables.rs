@@ -9,8 +9,8 @@ pub mod table1c {
     include!("../../../bodies/table1c.rs");
 }
 
-/// Six bicubic faces of one span, at this board's effort.
-pub static CAPPED_BOX: Body = capped_box::with_effort(EFFORT);
+/// Six faces of one span, a biquadratic dome, ruled sides and a bilinear bottom, at this board's effort.
+pub static CAPPED_BOX: Body = capped_box::BODY.with_effort(EFFORT);
 
 /// The same.
 pub mod capped_box {

@@ -5,6 +5,9 @@ use semihosting::println;
 /// Counts above this are all in the last bin.
 const BINS: usize = 4_096;
 
+/// Instructions of a bin: the ticks of a soft body are longer than there are bins.
+const WIDTH: u32 = if cfg!(feature = "soft") { 4 } else { 1 };
+
 /// How often each count came.
 pub struct Tally {
     times: [u32; BINS],
@@ -26,7 +29,7 @@ impl Tally {
 
     /// One more count.
     pub fn add(&mut self, instructions: u32) {
-        let bin = (instructions as usize).min(BINS - 1);
+        let bin = ((instructions / WIDTH) as usize).min(BINS - 1);
         self.times[bin] += 1;
         self.largest = self.largest.max(instructions);
         self.total += 1;
@@ -38,7 +41,7 @@ impl Tally {
         for (bin, times) in self.times.iter().enumerate() {
             below += times;
             if 2 * below >= self.total && below > 0 {
-                return bin as u32;
+                return bin as u32 * WIDTH;
             }
         }
         0

@@ -43,10 +43,12 @@ impl NorFlashError for Refused {
 const OTHER: Refused = Refused(NorFlashErrorKind::Other);
 
 impl Bank2 {
-    /// The bank's part for a body and that for a calibration, if the chip's option bytes have two banks.
+    /// The bank's part for a body and that for a calibration, if the chip's option bytes have two banks and start the
+    /// program in the first: else it would be the program's own bank.
     pub fn try_new(flash: FLASH) -> Option<[Self; 2]> {
-        let is_dual = flash.optr().read().dbank().is_dual_bank_mode();
-        is_dual.then_some([Self { first: 0, bytes: BODY_BYTES }, Self { first: BODY_BYTES, bytes: PAGE }])
+        let options = flash.optr().read();
+        let is_ours = options.dbank().is_dual_bank_mode() && options.bfb2().bit_is_clear();
+        is_ours.then_some([Self { first: 0, bytes: BODY_BYTES }, Self { first: BODY_BYTES, bytes: PAGE }])
     }
 
     fn registers() -> &'static RegisterBlock {

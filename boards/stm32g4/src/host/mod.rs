@@ -7,6 +7,7 @@ compile_error!("an image that is accepted takes no host's orders: one feature or
 mod flash;
 
 use core::sync::atomic::{AtomicBool, Ordering};
+use palpate::body::{Body, TickLimit};
 use palpate::commission::{Gains, Wiring};
 use palpate::device::Device;
 use palpate::scene::Slot;
@@ -19,7 +20,7 @@ use stm32g4xx_hal::stm32::FLASH;
 
 use self::flash::{BODY_BYTES, Bank2, START};
 use crate::body::own::{DEVICE, Mechanism, PROTECTION, REFERENCE, WIRING};
-use crate::body::{EFFORT, SAFETY, SETTINGS, SURFACE};
+use crate::body::{EFFORT, SAFETY, SETTINGS, tables};
 
 /// Faces and edges of some 60 patches: more RAM for them would be less for the code of the tick.
 const FACES: usize = 64;
@@ -32,8 +33,9 @@ type Store = Kept<FACES, EDGES>;
 // writes.
 static STORE: Store = Kept::with_effort(unsafe { Region::new(START as *const u32, BODY_BYTES) }, EFFORT);
 
-/// One patch alone is no body: choose a model of one.
-static SLOT: Slot<Store> = Slot::exchangeable(&SURFACE, &STORE);
+/// With code for every kind of patch, as a host's body may have any. One patch alone is no body: choose a model of one.
+static BUILT_IN: Body = tables::BODY.with_effort(EFFORT).fitted(TickLimit::BENCH);
+static SLOT: Slot<Store> = Slot::exchangeable(&BUILT_IN, &STORE);
 static SCENE: OneSlot<Store> = one_slot(&SLOT, &DEVICE, &SETTINGS);
 
 /// A configuration that is refused does not compile.

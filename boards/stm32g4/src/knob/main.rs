@@ -7,7 +7,9 @@
 #![no_std]
 #![no_main]
 
+mod bus;
 mod choice;
+mod currents;
 mod felt;
 mod stage;
 
@@ -18,28 +20,31 @@ use palpate::device::drive::NoPin;
 use palpate::wire::Record;
 use palpate::wire::telemetry::Queue;
 use palpate_bench::cortex::{Shared, program_check};
-use palpate_bench::knob::{JOG, SETTINGS, SUPPLY};
-use palpate_bench::sensors::{Angles, max_step};
+use palpate_bench::knob::{CHOPPER, CURRENTS, JOG, SETTINGS, SUPPLY};
+use palpate_bench::sensors::{Angles, Bounded, max_step};
 use palpate_bench::{
-    Bench, Cause, ClockCheck, CycleDelay, Idle, Lines, Memo, OneChannel, Parts, ReadBack, Settings, heartbeat,
+    Bench, Cause, Chopped, Chopper, ClockCheck, CurrentWatched, CycleDelay, Idle, Lines, Memo, OneChannel, Parts,
+    ReadBack, Settings, heartbeat,
 };
-use palpate_stm32g4::{CLOCK, Clock, Iwdg, MEMO, Slow, Ticks, Volts, open_port, start};
-use stm32g4xx_hal::gpio::{AF5, AnyPin, Input, Output, PA5, PA6, PA7, PB6, PinState};
+use palpate_stm32g4::{CLOCK, Clock, Iwdg, MEMO, Slow, Ticks, Volts, converters, open_port, start};
+use stm32g4xx_hal::gpio::{AF5, AnyPin, Input, Output, PA5, PA6, PA7, PB6, PC1, PinState};
 use stm32g4xx_hal::prelude::*;
-use stm32g4xx_hal::spi::Spi;
-use stm32g4xx_hal::stm32::{Interrupt, Peripherals, SPI1, interrupt};
+use stm32g4xx_hal::stm32::{Interrupt, Peripherals, interrupt};
 use stm32g4xx_hal::time::RateExtU32;
 
+use crate::bus::Spi;
 use crate::choice::Choice;
+use crate::currents::Shunts;
 use crate::felt::{DEVICE, This};
 use crate::stage::Stage;
 
 const BENCH: Settings = Settings { supply: Some(SUPPLY), jog: Some(JOG), ..Settings::new(CLOCK) };
 
 type Pin = AnyPin<Input>;
-type Bus = Spi<SPI1, (PA5<AF5>, PA6<AF5>, PA7<AF5>)>;
-type Sensor = Angles<Bus, PB6<Output>, CycleDelay<Clock>, 1>;
-type Board = Parts<Clock, Ticks, Sensor, ReadBack<[Stage; 1]>, OneChannel<Pin>, Pin, Pin, Volts, NoPin, 2>;
+type Sensor = Angles<Bounded<Spi>, PB6<Output>, CycleDelay<Clock>, 1>;
+type Drive = ReadBack<CurrentWatched<[Stage; 1], Shunts>>;
+type Supply = Chopped<Volts, PC1<Output>>;
+type Board = Parts<Clock, Ticks, Sensor, Drive, OneChannel<Pin>, Pin, Pin, Supply, NoPin, 2>;
 type Loop = Bench<'static, This, Board, 1>;
 
 static SHARED: Shared<Loop> = Shared::new();
@@ -70,28 +75,31 @@ fn main() -> ! {
     let stage = stage::stage((chip.TIM2, chip.TIM3), phases, enable, &mut rcc);
 
     let select = b.pb6.into_push_pull_output_in_state(PinState::High);
-    let bus = (a.pa5.into_alternate(), a.pa6.into_alternate(), a.pa7.into_alternate());
+    let bus: (PA5<AF5>, PA6<AF5>, PA7<AF5>) = (a.pa5.into_alternate(), a.pa6.into_alternate(), a.pa7.into_alternate());
     // The next divider that there is makes 5.3 MHz; of 8 MHz the HAL would make 10.6, and the sensor takes 10.
-    let bus = chip.SPI1.spi(bus, MODE_1, 5.MHz(), &mut rcc);
+    let (bus, _) = chip.SPI1.spi(bus, MODE_1, 5.MHz(), &mut rcc).release();
     let step = max_step(&DEVICE.encoders[0], DEVICE.max_joint_rate_rad_per_s, SETTINGS.rate_hz, BENCH.bad_frames);
-    let mut sensor = Angles::new(bus, [select], CycleDelay::new(clock, CLOCK), [step]);
+    let mut sensor = Angles::new(Bounded(Spi(bus)), [select], CycleDelay::new(clock, CLOCK), [step]);
     // If it does not start the loop says so, tick by tick.
     let _ = sensor.start();
     let mut port = open_port(chip.USART2, a.pa2.into_alternate(), a.pa3.into_alternate(), &mut rcc);
     let mut delay = CycleDelay::new(clock, CLOCK);
+    let converters = converters(chip.ADC12_COMMON, &mut rcc);
+    let shunts = Shunts::new(chip.ADC2, &converters, (a.pa0.into_analog(), a.pa4.into_analog()), &mut delay);
+    let volts = Volts::new(chip.ADC1, &converters, b.pb1.into_analog(), &mut delay);
 
     let board = Parts {
         counter: clock,
         timer: Ticks::start(chip.TIM7, SETTINGS.rate_hz, &rcc),
         sensors: sensor,
-        drives: ReadBack::new([stage], stage::reads_enabled as fn() -> bool),
+        drives: ReadBack::new(CurrentWatched::new([stage], shunts, CURRENTS), stage::reads_enabled as fn() -> bool),
         lines: Lines {
             // The blue button: high while pressed.
             enable: OneChannel { pin: c.pc13.into_floating_input().erase(), pressed_level: true },
             stop: c.pc0.into_pull_up_input().erase(),
             // The shield's fault and reset lines, both high while it is well, whichever of the two goes where.
             ready: [b.pb0.into_pull_down_input().erase(), a.pa1.into_pull_down_input().erase()],
-            supply: Volts::new(chip.ADC1, chip.ADC12_COMMON, b.pb1.into_analog(), &mut delay, &mut rcc),
+            supply: Chopped::new(volts, c.pc1.into_push_pull_output(), Chopper::new(CHOPPER, SETTINGS.rate_hz)),
         },
         // The board's light hangs on the bus's clock.
         light: NoPin,

@@ -1,7 +1,7 @@
 //! A border of a patch as polynomial spans, in double precision: the curve and the derivative across it.
 
 use crate::bernstein::{binomial, power_of};
-use crate::spline::Spans;
+use crate::spline::{BELOW_SINGLE, Spans};
 use crate::topology::{Border, Sense};
 use glam::{DVec3, DVec4, Vec4Swizzles as _};
 use palpate::patch::span_centre;
@@ -89,10 +89,6 @@ const CONSTANT: f64 = 1e-13;
 
 // Piecewise polynomials of one parameter: each span in powers of the distance from its `f32` centre, as the target has
 // it.
-
-/// Smallest relevant contribution of a power, relative to the largest value: a sixth of a unit in the last place of
-/// `f32`. The tables leave smaller ones out.
-const BELOW_SINGLE: f64 = 1e-8;
 
 /// Polynomials of one degree over the spans between `breaks`, which rise from 0 to 1.
 #[derive(Clone, Debug)]

@@ -253,14 +253,14 @@ fn whole(body: &BakedBody, crc: u32, centre: &TokenStream) -> TokenStream {
         .checked();
         /// The type of the surface.
         #[allow(dead_code)]
-        pub type Surface = palpate::body::Body<'static>;
-        /// The body.
+        pub type Surface = palpate::body::Body<'static, palpate::field::Rigid<{ BODY.kinds() }>>;
+        /// The body, with code for its own kinds of patches alone.
         #[allow(dead_code)]
-        pub const SURFACE: &Surface = &BODY;
-        /// The body with another effort in each tick.
+        pub const SURFACE: &Surface = &BODY.of_kinds();
+        /// The body with another effort in each tick, as far as it fits the bench boards' period.
         #[allow(dead_code)]
         pub const fn with_effort(effort: palpate::body::Effort) -> Surface {
-            BODY.with_effort(effort)
+            BODY.with_effort(effort).fitted(palpate::body::TickLimit::BENCH).of_kinds()
         }
         #centre
     }

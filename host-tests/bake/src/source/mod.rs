@@ -11,6 +11,8 @@ use crate::body::BakedBody;
 use crate::model::Model;
 pub use body::{SourceError, body_source};
 use glam::DVec3;
+use palpate::field::{Modal, Mode};
+use palpate::math::Vec3;
 use palpate::patch::Orientation;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -116,6 +118,62 @@ pub fn source(origin: &Origin<'_>, model: &Model, body: &BakedBody) -> Result<St
         [only] => Ok(rust_source(origin, std::slice::from_ref(&only.patch))?),
         _ => body_source(origin, body, &body.labels(model)),
     }
+}
+
+/// The source of a body's modes: `pub static MODES: [Mode; N]` and `pub const MOTION: [Modal; N]`.
+///
+/// # Errors
+/// Where the tokens do not parse as Rust: a bug of this file.
+pub fn modes_source(modes: &[(Mode, Modal)]) -> Result<String, syn::Error> {
+    let count = Literal::usize_unsuffixed(modes.len());
+    let vector = |vector: Vec3| {
+        let [x, y, z] = vector.to_array().map(number);
+        quote!(palpate::math::vec3(#x, #y, #z))
+    };
+    let mode = |(mode, _): &(Mode, Modal)| {
+        let Mode { field, bump, limit, bounds } = mode;
+        let constant = vector(field.constant);
+        let (linear, quadratic) = (field.linear.map(vector), field.quadratic.map(vector));
+        let bump = match bump {
+            Some(bump) => {
+                let (direction, at, radius) = (vector(bump.direction), vector(bump.at), number(bump.radius));
+                quote!(Some(palpate::field::Bump { direction: #direction, at: #at, radius: #radius }))
+            }
+            None => quote!(None),
+        };
+        let [limit, motion, stretch, bend, twist] =
+            [*limit, bounds.motion, bounds.stretch, bounds.bend, bounds.twist].map(number);
+        quote! {
+            palpate::field::Mode {
+                field: palpate::field::Quadratic {
+                    constant: #constant,
+                    linear: [#(#linear),*],
+                    quadratic: [#(#quadratic),*],
+                },
+                bump: #bump,
+                limit: #limit,
+                bounds: palpate::field::FieldBounds { motion: #motion, stretch: #stretch, bend: #bend, twist: #twist },
+            }
+        }
+    };
+    let motion = |(_, modal): &(Mode, Modal)| {
+        let [mass, damping, stiffness] = [modal.mass_kg, modal.damping_n_s_per_m, modal.stiffness_n_per_m].map(number);
+        quote! {
+            palpate::field::Modal { mass_kg: #mass, damping_n_s_per_m: #damping, stiffness_n_per_m: #stiffness }
+        }
+    };
+    let (modes, motions) = (modes.iter().map(mode), modes.iter().map(motion));
+    let statics = quote! {
+        /// Modes of deformation of the body.
+        #[allow(dead_code)]
+        #[rustfmt::skip]
+        pub static MODES: [palpate::field::Mode; #count] = [#(#modes),*];
+        /// How each of them moves.
+        #[allow(dead_code)]
+        #[rustfmt::skip]
+        pub const MOTION: [palpate::field::Modal; #count] = [#(#motions),*];
+    };
+    Ok(format!("\n{}", pretty(statics)?))
 }
 
 fn pretty(tokens: TokenStream) -> Result<String, syn::Error> {

@@ -19,7 +19,9 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 pub enum DeviceFileError {
     /// It cannot be read.
-    #[error("{file}: cannot be read: {cause}")]
+    #[error(
+        "{file}: cannot be read: {cause}; `palpate device woodenhaptics-2016 --out my.toml` writes one to start from"
+    )]
     Read {
         /// Which.
         file: String,
@@ -101,7 +103,24 @@ impl OwnDevice {
                 DeviceError::Motor(joint) => format!("joint {joint}: motor"),
                 DeviceError::Friction(joint) => format!("joint {joint}: friction"),
                 DeviceError::Range(joint) | DeviceError::Endless(joint) => format!("joint {joint}: range"),
-                DeviceError::Limit => "limits".to_owned(),
+                DeviceError::Limit => {
+                    let limits = &file.limits;
+                    let all = [
+                        ("min_margin", limits.min_margin),
+                        ("max_joint_rate", limits.max_joint_rate),
+                        ("max_force", limits.max_force),
+                        ("max_stiffness", limits.max_stiffness),
+                        ("max_damping", limits.max_damping),
+                    ];
+                    let bad = all.iter().find(|(_, limit)| !(*limit as f32 > 0.0 && (*limit as f32).is_finite()));
+                    let entry = bad.map_or("limits".to_owned(), |(name, _)| format!("limits.{name}"));
+                    return Err(refuse(
+                        &entry,
+                        &format!(
+                            "{error}; `palpate device woodenhaptics-2016 --out near.toml` shows those of a near device"
+                        ),
+                    ));
+                }
             };
             return Err(refuse(&entry, &error.to_string()));
         }

@@ -24,7 +24,7 @@ pub fn source(
         let _ = writeln!(
             text,
             "/// Tables of {:?}.\nmod body_{index} {{\n{table}\n}}\n\
-             static BODY_{index}: palpate::body::Body = body_{index}::with_effort(palpate::body::Effort::ONE);",
+             static BODY_{index}: palpate::body::Body = body_{index}::BODY.with_effort(palpate::body::Effort::ONE);",
             file.body[index].model
         );
     }

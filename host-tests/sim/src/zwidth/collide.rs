@@ -134,7 +134,7 @@ pub fn collide(slice: &Slice, wall: Wall, servo: &Loop, collision: Collision) ->
         let before = rate;
         rate = estimator.next(&mut memory, now - last);
         last = now;
-        let moved = now - memory.lag() - believed;
+        let moved = now - memory.lag - believed;
         believed += moved;
         let push = eased.map_or(penalty, |eased| eased.wall(&penalty, believed)).push(believed, rate);
         given = eased.map_or(push, |eased| {

@@ -21,7 +21,7 @@ const CLOCKS_OF_BOARDS: [(u32, u64); 4] = [(150_000_000, 1), (150_000_000, 6), (
 #[test]
 fn a_select_line_is_high_and_set_up_as_long_as_the_data_sheet_asks_at_every_boards_clock() {
     for (frequency, look) in CLOCKS_OF_BOARDS {
-        let (shared, mut joints) = table(frequency, look);
+        let (shared, mut joints) = table::<3>(frequency, look);
         joints.start().unwrap();
         for turn in 0..200_i32 {
             for (joint, chip) in shared.borrow_mut().chips.iter_mut().enumerate() {
@@ -69,14 +69,14 @@ fn a_delay_ends_though_its_counter_stands_still() {
 
 #[test]
 fn nothing_is_sent_before_the_sensors_have_powered_up_and_a_slow_one_is_waited_for() {
-    let (shared, mut joints) = table(150_000_000, 6);
+    let (shared, mut joints) = table::<3>(150_000_000, 6);
     // 40 ms later than its data sheet says: the supply came up slowly.
     shared.borrow_mut().chips[1].ready_at += 6_000_000;
     joints.start().unwrap();
     assert!(shared.borrow().cycles >= 7_500_000);
 
     // The first frame comes no earlier than 10 ms after power-on.
-    let (shared, mut joints) = table(150_000_000, 6);
+    let (shared, mut joints) = table::<3>(150_000_000, 6);
     shared.borrow_mut().chips.iter_mut().for_each(|chip| chip.ready_at = 1_500_000);
     joints.start().unwrap();
     // Three frames each: not one was in vain.
@@ -85,7 +85,7 @@ fn nothing_is_sent_before_the_sensors_have_powered_up_and_a_slow_one_is_waited_f
 
 #[test]
 fn a_sensor_that_is_not_there_is_said_so_within_a_fifth_of_a_second_and_found_when_it_comes() {
-    let (shared, mut joints) = table(150_000_000, 6);
+    let (shared, mut joints) = table::<3>(150_000_000, 6);
     shared.borrow_mut().chips[2].is_there = false;
     assert_eq!(joints.start(), Err(BadFrame::Absent));
     assert!(shared.borrow().cycles < 150_000_000 / 5);
@@ -98,7 +98,7 @@ fn a_sensor_that_is_not_there_is_said_so_within_a_fifth_of_a_second_and_found_wh
 fn a_sensor_whose_data_line_dies_is_absent_whichever_level_it_reads_then() {
     for silence in [0, u16::MAX] {
         for angle in [0, 8, 1_000] {
-            let (shared, mut joints) = table(150_000_000, 6);
+            let (shared, mut joints) = table::<3>(150_000_000, 6);
             for chip in &mut shared.borrow_mut().chips {
                 (chip.silence, chip.angle) = (silence, angle);
             }
@@ -114,7 +114,7 @@ fn a_sensor_whose_data_line_dies_is_absent_whichever_level_it_reads_then() {
 
 #[test]
 fn a_joint_that_rests_at_angle_zero_is_read_there() {
-    let (shared, mut joints) = table(150_000_000, 6);
+    let (shared, mut joints) = table::<3>(150_000_000, 6);
     joints.start().unwrap();
     for angle in [5, 3, 0, 0, 0, 0, 0, 2, 0] {
         shared.borrow_mut().chips[0].angle = angle;
@@ -128,7 +128,7 @@ fn a_joint_that_rests_at_angle_zero_is_read_there() {
 
 #[test]
 fn a_command_that_arrives_damaged_costs_one_reading_and_its_flag_is_cleared_in_the_next() {
-    let (shared, mut joints) = table(150_000_000, 6);
+    let (shared, mut joints) = table::<3>(150_000_000, 6);
     joints.start().unwrap();
     joints.read().unwrap();
     for joint in 0..3 {
@@ -140,7 +140,7 @@ fn a_command_that_arrives_damaged_costs_one_reading_and_its_flag_is_cleared_in_t
 
 #[test]
 fn a_jump_that_no_hand_makes_is_refused_and_measured_against_the_last_good_one() {
-    let (shared, mut joints) = table(150_000_000, 6);
+    let (shared, mut joints) = table::<3>(150_000_000, 6);
     joints.start().unwrap();
     joints.read().unwrap();
     shared.borrow_mut().chips[0].angle = 6_000;
@@ -154,7 +154,7 @@ fn a_magnet_that_falls_off_or_a_frozen_sensor_is_not_believed_for_4_000_readings
     // Each of the frames is whole. The diagnostics are those of the reading before: the second bad one at the latest.
     for joint in 0..3 {
         for field in [0.0, 0.4, 200.0] {
-            let (shared, mut joints) = table(150_000_000, 6);
+            let (shared, mut joints) = table::<3>(150_000_000, 6);
             joints.start().unwrap();
             for turn in 0..4_000_u16 {
                 shared.borrow_mut().chips.iter_mut().for_each(|chip| chip.angle = 100 + turn % 5);
@@ -173,7 +173,7 @@ fn a_magnet_that_falls_off_or_a_frozen_sensor_is_not_believed_for_4_000_readings
             shared.borrow_mut().chips[joint].field = 1.0;
             assert!(joints.read().is_ok(), "a magnet that is back is seen again");
         }
-        let (shared, mut joints) = table(150_000_000, 6);
+        let (shared, mut joints) = table::<3>(150_000_000, 6);
         joints.start().unwrap();
         shared.borrow_mut().chips[joint].is_frozen = true;
         let found = (0..4_000_u16).find(|turn| {
@@ -187,7 +187,7 @@ fn a_magnet_that_falls_off_or_a_frozen_sensor_is_not_believed_for_4_000_readings
 
 #[test]
 fn a_reading_is_two_frames_and_its_diagnostics_cost_none() {
-    let (shared, mut joints) = table(150_000_000, 6);
+    let (shared, mut joints) = table::<3>(150_000_000, 6);
     joints.start().unwrap();
     let before = shared.borrow().frames;
     (0..100).for_each(|_| assert!(joints.read().is_ok()));

@@ -512,8 +512,9 @@ impl Broken {
 fn flash_that_does_not_take_it_is_said_with_the_place() {
     let capped_box = file("capped_box.palp");
     // Nothing at all; the first page erased; two parts more; the second page, after the 31 parts that follow the head;
-    // the head itself, after 107 parts and four pages.
-    let breaks = [(0, 0, false), (1, 64, false), (3, 192, false), (32, 2_048, false), (3, 192, true), (111, 0, false)];
+    // the head itself, after all other parts and the pages.
+    let head = (capped_box.len().div_ceil(64) - 1 + capped_box.len().div_ceil(2_048)) as u32;
+    let breaks = [(0, 0, false), (1, 64, false), (3, 192, false), (32, 2_048, false), (3, 192, true), (head, 0, false)];
     for (left, at, is_silent) in breaks {
         let flash: &'static Flash = kept_for_good(Flash::new());
         let kept: &'static Kept<8, 16> = kept_for_good(Kept::new(flash.region()));

@@ -11,10 +11,10 @@ use palpate::wire::Record;
 use palpate::wire::telemetry::{Consumer, Queue};
 use palpate_bench::sensors::{BadFrame, Sensors};
 use palpate_bench::{
-    Bench, Counter, CurrentFault, CurrentLimits, CurrentWatched, Felt, Lines, Mailbox, OneChannel, Parts,
-    PhaseCurrents, Settings, Supply, Timer,
+    Bench, Counter, CurrentFault, CurrentWatched, Felt, Lines, Mailbox, OneChannel, Parts, PhaseCurrents, Settings,
+    Supply, Timer,
 };
-use palpate_sim::knob::{JOG, KnobServo, MODULATION, PROTECTION, SEARCH, SETTINGS, SUPPLY, device, servo};
+use palpate_sim::knob::{CURRENTS, JOG, KnobServo, MODULATION, PROTECTION, SEARCH, SETTINGS, SUPPLY, device, servo};
 use palpate_sim::plant::{DialSettings, Fingers, MagneticFault};
 use std::cell::RefCell;
 use std::convert::Infallible;
@@ -154,9 +154,6 @@ impl PhaseCurrents for Amps {
     }
 }
 
-/// Twice the amplitude at full duty; a tenth of a volt over 7.5 Ω is noise of dead time.
-const LIMITS: CurrentLimits = CurrentLimits { max_a: 1.2, open_a: 0.06 };
-
 pub type Stage = ThreePhase<Width, Width, Width, Enable>;
 pub type Board = Parts<
     Clock,
@@ -204,7 +201,7 @@ impl Rig {
             counter: Clock(of()),
             timer: Clock(of()),
             sensors: Behind(of(), Frozen::AS5047P),
-            drives: CurrentWatched::new([ThreePhase::new(widths, Enable(of()), MODULATION)], Amps(of()), LIMITS),
+            drives: CurrentWatched::new([ThreePhase::new(widths, Enable(of()), MODULATION)], Amps(of()), CURRENTS),
             lines: Lines {
                 enable: OneChannel { pin: In(of(), |world| world.button), pressed_level: true },
                 stop: In(of(), |world| world.stop_open),

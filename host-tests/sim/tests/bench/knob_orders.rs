@@ -1,6 +1,7 @@
 //! A host at the knob's line: it chooses what is felt, and nothing that it says makes a step or drives by itself.
 
 use crate::knob::Rig;
+use palpate::render::{Detents, DialFriction, Ends, Feel, FeelPart, Notch, Spring, Wave};
 use palpate::scene::{BodyPose, Command, SceneError};
 use palpate::servo::{Heartbeat, ResetReason};
 use palpate::wire::frame::{MAX_FRAME, Received, Receiver, pack};
@@ -9,7 +10,7 @@ use palpate_bench::Idle;
 use palpate_sim::knob::{FEELS, LET_GO, SETTINGS};
 use palpate_sim::plant::Fingers;
 use palpate_sim::simulated::{NoWatchdog, Wire};
-use rand::{Rng, SeedableRng};
+use rand::{Rng, RngExt as _, SeedableRng};
 use rand_pcg::Pcg64;
 
 /// The whole device side, and what it said.
@@ -184,4 +185,289 @@ fn no_order_drives_a_knob_whose_button_is_up() {
         }
         assert_eq!(device.rig.world.borrow().dial.currents(), [0.0; 3]);
     }
+}
+
+/// What a feel asks for at an angle and a rate, N·m, in double precision, from the formulas on its parts' pages; `None`
+/// where a click is about to snap, within a rounding.
+fn asked(feel: &Feel, click: &mut i32, angle: f64, rate: f64) -> Option<f64> {
+    let number = |number: f32| f64::from(number);
+    let wave = |wave: &Wave| {
+        let turns = (angle - number(wave.centre_rad)) / number(wave.pitch_rad);
+        -number(wave.torque_n_m) * (std::f64::consts::TAU * turns).sin()
+    };
+    let mut sum = -number(feel.damping_n_m_s_per_rad) * rate;
+    sum += feel.detents.as_ref().map_or(0.0, wave) + feel.texture.as_ref().map_or(0.0, wave);
+    if let Some(clicks) = &feel.clicks {
+        let (pitch, most) = (number(clicks.pitch), number(clicks.max_force));
+        let off = |click: i32| angle - f64::from(click) * pitch;
+        let margin = off(*click).abs() - number(clicks.snap) * pitch;
+        if margin.abs() < 1e-5 {
+            return None;
+        }
+        if margin > 0.0 {
+            *click = ((angle / pitch).round() as i32).clamp(clicks.first, clicks.last);
+        }
+        let is_beyond = (*click == clicks.first && off(*click) < 0.0) || (*click == clicks.last && off(*click) > 0.0);
+        let stiffness = number(if is_beyond { clicks.wall_stiffness } else { clicks.stiffness });
+        sum += (-stiffness * off(*click) - number(clicks.damping) * rate).clamp(-most, most);
+    }
+    if let Some(spring) = &feel.spring {
+        let most = number(spring.max_torque_n_m);
+        sum += (number(spring.stiffness_n_m_per_rad) * (number(spring.rest_rad) - angle)).clamp(-most, most);
+    }
+    if let Some(ends) = &feel.ends {
+        let [least, most] = ends.between_rad.map(f64::from);
+        let (stiffness, damping) = (number(ends.stiffness_n_m_per_rad), number(ends.damping_n_m_s_per_rad));
+        sum += if angle > most {
+            (stiffness * (most - angle) - damping * rate).min(0.0)
+        } else if angle < least {
+            (stiffness * (least - angle) - damping * rate).max(0.0)
+        } else {
+            0.0
+        };
+    }
+    if let Some(friction) = &feel.friction {
+        let share = (rate / number(friction.whole_at_rad_per_s)).clamp(-1.0, 1.0);
+        sum -= number(friction.torque_n_m) * share;
+    }
+    if let Some(notch) = &feel.notch {
+        let off = angle - number(notch.at_rad);
+        if off.abs() < 0.5 * number(notch.width_rad) {
+            sum -= number(notch.torque_n_m) * (std::f64::consts::TAU * off / number(notch.width_rad)).sin();
+        }
+    }
+    Some(sum)
+}
+
+/// A part that makes sense by itself, at this angle; the device may refuse what it makes together with the others.
+fn part(random: &mut Pcg64, angle: f32) -> FeelPart {
+    let mut between = |least: f32, most: f32| least + (most - least) * random.random::<f32>();
+    let wave = |pitch: f32, share: f32| Wave { pitch_rad: pitch, torque_n_m: 0.1 * share * pitch, centre_rad: share };
+    match between(0.0, 9.5) as u32 {
+        0 => FeelPart::Detents(Some(wave(between(0.05, 0.6), between(0.0, 1.0)))),
+        1 => {
+            let (pitch, first) = (between(0.1, 0.5), (angle / 0.3) as i32 - between(0.0, 6.0) as i32);
+            let (last, max_force) = (first + between(3.0, 20.0) as i32, between(0.005, 0.03));
+            let (snap, stiffness) = (between(0.5, 0.9), between(0.0, 0.2));
+            let (damping, wall_stiffness) = (between(0.0, 5e-4), between(0.0, 0.5));
+            FeelPart::Clicks(Some(Detents { pitch, stiffness, damping, snap, first, last, wall_stiffness, max_force }))
+        }
+        2 => FeelPart::Texture(Some(wave(between(0.02, 0.06), between(0.0, 1.0)))),
+        3 => FeelPart::Spring(Some(Spring {
+            stiffness_n_m_per_rad: between(0.0, 0.2),
+            rest_rad: angle + between(-1.0, 1.0),
+            max_torque_n_m: between(0.0, 0.03),
+        })),
+        4 => FeelPart::Ends(Some(Ends {
+            between_rad: [angle - between(-0.2, 1.0), angle + between(0.3, 1.0)],
+            stiffness_n_m_per_rad: between(0.0, 1.0),
+            damping_n_m_s_per_rad: between(0.0, 1e-3),
+        })),
+        5 => FeelPart::Damping(between(0.0, 1e-3)),
+        6 => FeelPart::Friction(Some(DialFriction {
+            torque_n_m: between(0.0, 5e-3),
+            whole_at_rad_per_s: between(4.0, 10.0),
+        })),
+        7 => FeelPart::Notch(Some(Notch {
+            at_rad: angle + between(-0.5, 0.5),
+            width_rad: between(0.2, 1.0),
+            torque_n_m: between(0.0, 0.03),
+        })),
+        8 => [FeelPart::Detents(None), FeelPart::Clicks(None), FeelPart::Spring(None), FeelPart::Ends(None)]
+            [between(0.0, 3.99) as usize],
+        _ => FeelPart::Free,
+    }
+}
+
+/// Bytes as they are.
+struct Raw(Vec<u8>);
+
+impl serde::Serialize for Raw {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        use serde::ser::SerializeTuple as _;
+        let mut tuple = serializer.serialize_tuple(self.0.len())?;
+        self.0.iter().try_for_each(|byte| tuple.serialize_element(byte))?;
+        tuple.end()
+    }
+}
+
+/// The bytes of a message, without checksum and COBS.
+fn unpacked(message: &HostMessage) -> Vec<u8> {
+    let mut buffer = [0; MAX_FRAME];
+    let mut frame = pack(message, &mut buffer).expect("it fits");
+    let mut bytes = Vec::new();
+    while let [length, rest @ ..] = frame
+        && *length > 0
+    {
+        let (run, next) = rest.split_at(usize::from(*length) - 1);
+        bytes.extend(run);
+        bytes.push(0);
+        frame = next;
+    }
+    // The last zero is COBS's own, before it is the checksum.
+    bytes.truncate(bytes.len() - 5);
+    bytes
+}
+
+/// A number of tests, from the environment.
+fn number(name: &str, default: u32) -> u32 {
+    std::env::var(name).map_or(default, |number| number.parse().expect("a whole number"))
+}
+
+#[test]
+fn no_change_of_the_feel_makes_a_step_while_a_hand_turns_the_dial() {
+    let (valid, spoiled) = (number("PALPATE_FEELS", 1_000), number("PALPATE_SPOILED_FEELS", 5_000));
+    let mut device = Device::new(Rig::running());
+    device.send(&HostMessage::Hello { protocol: PROTOCOL });
+    device.tick();
+    let mut random = Pcg64::seed_from_u64(39);
+    let step = f64::from(LET_GO / SETTINGS.rate_hz);
+    let limit = 2.8 * 0.02;
+    let (mut largest, mut taken, mut checked, mut click) = (0.0_f64, 0, 0_u32, 0);
+    let mut left_over = 0.0_f64;
+    let (from, began) = (device.rig.world.borrow().dial.angle(), device.rig.world.borrow().dial.time());
+    for number in 0..valid + spoiled {
+        let angle = device.rig.bench.state().witness().angle().expect("it has ticked");
+        let feel = HostMessage::Command { number: number as u16, command: Command::Feel(part(&mut random, angle)) };
+        if number < valid {
+            device.send(&feel);
+        } else {
+            // A byte or two of it are others, under a checksum that is right: half of them make no frame at all.
+            let mut message = unpacked(&feel);
+            for _ in 0..1 + random.random_range(0..2) {
+                let at = random.random_range(3..message.len());
+                message[at] = random.random();
+            }
+            let mut buffer = [0; MAX_FRAME];
+            let frame = pack(&Raw(message), &mut buffer).expect("it fits");
+            let damage = if random.random() { 0 } else { random.random_range(0..frame.len()) };
+            device
+                .wire
+                .to_device
+                .extend(frame.iter().enumerate().map(|(at, byte)| if at + 1 == damage { !byte } else { *byte }));
+            device.wire.to_device.push_back(0);
+        }
+        for tick in 0..random.random_range(2..5) {
+            // There and back by two radians, by fits and starts.
+            let time = device.rig.world.borrow().dial.time() - began;
+            let aim = from + 2.0 * (1.3 * time).sin() + 0.3 * (7.1 * time).sin();
+            let rate = 2.6 * (1.3 * time).cos() + 2.13 * (7.1 * time).cos();
+            device.rig.set(|world| world.dial.hold(Fingers { stiffness: 2.0, damping: 0.01, aim, rate }));
+            let before = f64::from(torque(&device));
+            device.told.clear();
+            device.tick();
+            let is_taken = |told: &DeviceMessage| matches!(told, DeviceMessage::Answer(Answer { refused: None, .. }));
+            let changed = device.told.iter().any(is_taken);
+            let (after, state) = (f64::from(torque(&device)), device.rig.bench.state());
+            let witness = state.witness();
+            assert_eq!((device.rig.fault(), device.rig.enabled()), (None, true), "{number}");
+            assert!(after.abs() <= limit + 1e-9, "{number}: {after}");
+            if changed {
+                taken += 1;
+                largest = largest.max((after - before).abs());
+                assert!((after - before).abs() <= 1e-3, "{number}, {tick}: a step of {} N·m", after - before);
+            }
+            let Some(feel) = witness.own() else { continue };
+            // By its own formula the torque is that of the feel, and what is left over of the one before.
+            let (angle, [rate]) = (witness.angle().expect("it has ticked"), state.rates());
+            let Some(asked) = asked(feel, &mut click, f64::from(angle), f64::from(rate)) else {
+                left_over = f64::NAN;
+                continue;
+            };
+            let rest = after - asked.clamp(-limit, limit);
+            // Roundings of three radians by 1.6 N·m/rad and of the rate by 3.2e-3 N·m·s/rad.
+            if !changed && left_over.is_finite() {
+                let bound = (left_over.abs() - step).max(0.0) + 5e-6;
+                assert!(rest.abs() <= bound, "{number}, {tick}: {rest} left of {left_over} in {feel:?}");
+                checked += 1;
+            }
+            // At the limit the rest of what is left over is not seen.
+            left_over = if after.abs() < limit - 1e-6 { rest } else { f64::NAN };
+        }
+    }
+    println!("{taken} changes taken, largest torque step {:.3} mN·m; {checked} ticks compared", 1e3 * largest);
+    assert!(taken > valid / 4 && checked > valid, "{taken} {checked}");
+}
+
+#[test]
+fn a_kept_or_early_spring_leaves_the_dial_where_it_is() {
+    use palpate_sim::knob::{KnobFlash, SharedKnob, SimulatedKnob};
+    use palpate_sim::plant::DialSettings;
+
+    /// Ticks until the knob is aligned and its force is there, after a hand has turned the dial on.
+    fn enable(device: &mut palpate_link::Device<SimulatedKnob>, knob: &SharedKnob, turned: f64) -> f64 {
+        let press = |device: &mut palpate_link::Device<SimulatedKnob>, pressed: bool, ticks: u32| {
+            knob.world().enable = pressed;
+            (0..ticks).for_each(|_| device.line().tick());
+            device.tend().unwrap();
+        };
+        if !device.line().board.bench.state().homed() {
+            press(device, false, 400);
+            press(device, true, palpate_sim::knob::SEARCH.ticks() + 10);
+        }
+        press(device, false, 400);
+        let from = knob.world().dial.angle();
+        for tick in 1..=4_000 {
+            let aim = from + turned * f64::from(tick) / 4_000.0;
+            knob.world().dial.hold(Fingers { rate: turned, ..Fingers::clamp(aim) });
+            device.line().tick();
+        }
+        knob.world().dial.hold(Fingers::clamp(from + turned));
+        press(device, false, 400);
+        knob.world().dial.hold(Fingers::NONE);
+        let from = knob.world().dial.angle();
+        press(device, true, 4_000);
+        assert_eq!(device.line().board.bench.state().phase(), palpate::servo::Phase::Running);
+        knob.world().dial.angle() - from
+    }
+    let make = |flash: &'static KnobFlash| {
+        let knob = SharedKnob::new(DialSettings::gimbal_knob());
+        let device = palpate_link::Device::over(SimulatedKnob::new(&knob, flash)).unwrap();
+        (device, knob)
+    };
+    let flash: &'static KnobFlash = Box::leak(Box::new(KnobFlash::new()));
+    let spring = Spring { stiffness_n_m_per_rad: 0.2, rest_rad: 60.0, max_torque_n_m: 0.03 };
+    let ends = Ends { between_rad: [-0.5, 0.5], stiffness_n_m_per_rad: 0.6, damping_n_m_s_per_rad: 1e-3 };
+    let (mut device, knob) = make(flash);
+    // Early: before the dial's place is known its rest may be anywhere.
+    device.feel(FeelPart::Free).unwrap();
+    device.feel(FeelPart::Spring(Some(spring))).unwrap();
+    let early = enable(&mut device, &knob, 3.0);
+    // Then it must be near.
+    let far = device.feel(FeelPart::Spring(Some(spring))).unwrap_err();
+    assert!(far.to_string().contains("more than an eighth of a turn"), "{far}");
+    let on = enable(&mut device, &knob, 40.0);
+    let at = device.line().board.bench.state().witness().angle().unwrap();
+    let [least, most] = ends.between_rad;
+    device.feel(FeelPart::Ends(Some(Ends { between_rad: [least + at, most + at], ..ends }))).unwrap();
+    // Kept: refused under force, then confirmed.
+    let driven = device.keep_feel(true).unwrap_err();
+    assert!(driven.to_string().contains("only while the motors are off"), "{driven}");
+    knob.world().enable = false;
+    (0..400).for_each(|_| device.line().tick());
+    device.keep_feel(true).unwrap();
+    let own = device.line().board.bench.state().witness().own().copied();
+    let reset: &'static KnobFlash = Box::leak(Box::new(flash.after_reset()));
+    let (mut device, knob) = make(reset);
+    assert_eq!(device.line().board.bench.state().witness().own().copied(), own);
+    let kept = enable(&mut device, &knob, -55.0);
+    let again = enable(&mut device, &knob, 9.0);
+    // Reports come at their rate.
+    device.tend().unwrap();
+    let (began, dials) = (device.now(), device.dials());
+    while (device.now() - began).as_secs_f64() < 1.0 {
+        device.dial(std::time::Duration::from_millis(20)).unwrap();
+    }
+    let dials = device.dials() - dials;
+    let dial = device.dial(std::time::Duration::ZERO).unwrap();
+    println!("turned by {:?} mrad; {dials} reports in a second", [early, on, kept, again].map(|by| (1e3 * by).round()));
+    assert!((99..=101).contains(&dials) && dial.kept == palpate::wire::KeptFeel::Used as u8, "{dials} {dial:?}");
+    // A detent of cogging is 5 degrees.
+    assert!([early, on, kept, again].iter().all(|by| by.abs() < 0.09), "{early} {on} {kept} {again}");
+    // And a flash that is damaged is no feel.
+    knob.world().enable = false;
+    (0..400).for_each(|_| device.line().tick());
+    device.keep_feel(false).unwrap();
+    let (mut device, _) = make(Box::leak(Box::new(reset.after_reset())));
+    assert_eq!(device.line().board.bench.state().witness().own(), None);
 }

@@ -2,9 +2,9 @@
 
 use palpate::device::SerialArm;
 use palpate::device::presets::WOODEN_HAPTICS_2016;
-use palpate::servo::{Config, Event, Fault, Heartbeat, Phase, ResetReason, SafeOutput, Safety, Servo};
-use palpate::wire::{HostMessage, PROTOCOL, frame};
-use palpate_bench::{Cause, Idle, Memo, Port, ResetFlags, Watchdog};
+use palpate::servo::{Config, Event, Fault, Phase, ResetReason, SafeOutput, Safety, Servo};
+use palpate::wire::HostMessage;
+use palpate_bench::{Cause, Memo, ResetFlags};
 use palpate_sim::rig::{Rig, SETTINGS, WALL, held_at, settings};
 
 /// Ticks that are longer than what a button that acknowledges is held for, 50 ms.
@@ -127,47 +127,14 @@ fn noise_on_the_stop_line_acknowledges_nothing_and_a_button_that_bounces_does() 
     rig.press_until_it_runs();
 }
 
-/// A port that a host talks into.
-struct Line<'a>(std::slice::Iter<'a, u8>);
-
-impl Port for Line<'_> {
-    fn send(&mut self, _: u8) -> bool {
-        true
-    }
-
-    fn receive(&mut self) -> Option<u8> {
-        self.0.next().copied()
-    }
-}
-
-struct Bowl;
-
-impl Watchdog for Bowl {
-    fn feed(&mut self) {}
-}
-
-/// Sends a command to the loop over its port.
-fn send(rig: &mut Rig<SerialArm>, command: HostMessage) {
-    let mut buffer = [0; frame::MAX_FRAME];
-    let mut bytes = frame::pack(&HostMessage::Hello { protocol: PROTOCOL }, &mut buffer).unwrap().to_vec();
-    bytes.extend_from_slice(frame::pack(&command, &mut buffer).unwrap());
-    let mut line = Line(bytes.iter());
-    let mut queue = palpate::wire::telemetry::Queue::<_, 2>::new();
-    let (_, records) = queue.split();
-    let mut idle = Idle::new(rig.mailbox, records, Heartbeat::default());
-    for _ in 0..bytes.len() {
-        idle.step(&mut line, &mut Bowl);
-    }
-}
-
 #[test]
 fn the_host_acknowledges_a_reset_and_nothing_else() {
     let mut rig = rig(ResetReason::Watchdog);
     rig.ticks_off(150);
-    send(&mut rig, HostMessage::Alive);
+    rig.send(HostMessage::Alive);
     rig.ticks_off(10);
     assert_eq!(rig.fault(), Some(Fault::WatchdogReset));
-    send(&mut rig, HostMessage::Acknowledge);
+    rig.send(HostMessage::Acknowledge);
     rig.ticks_off(10);
     assert_eq!(rig.fault(), Some(Fault::WatchdogReset), "nobody has confirmed it");
     for (pressed, ticks) in [(true, 2_100), (false, 150)] {
@@ -177,9 +144,9 @@ fn the_host_acknowledges_a_reset_and_nothing_else() {
     assert_eq!(rig.fault(), None);
     rig.press_until_it_runs();
     // Its stop is latched, whoever acknowledges.
-    send(&mut rig, HostMessage::Stop);
+    rig.send(HostMessage::Stop);
     rig.ticks_off(1);
-    send(&mut rig, HostMessage::Acknowledge);
+    rig.send(HostMessage::Acknowledge);
     rig.ticks_off(10);
     assert_eq!(rig.fault(), Some(Fault::Stopped));
 }
@@ -191,7 +158,7 @@ fn an_enable_that_is_held_while_the_host_acknowledges_gives_no_force() {
     rig.ticks_off(100);
     rig.set(|world| world.button = true);
     rig.ticks_off(100);
-    send(&mut rig, HostMessage::Acknowledge);
+    rig.send(HostMessage::Acknowledge);
     rig.ticks_off(4_000);
     rig.set(|world| world.button = false);
     rig.ticks_off(1_000);

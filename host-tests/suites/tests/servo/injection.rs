@@ -8,7 +8,7 @@ use rand::Rng;
 use rand_pcg::Pcg64;
 
 /// Of the table check: two for each of 33 words, and two ends.
-pub const TICKS_PER_PASS: u32 = 68;
+pub const TICKS_PER_PASS: u32 = 272;
 /// Until a sensor that stands still is called stuck by limits that allow next to no travel: eight turns of the probe and
 /// three joints.
 pub const STUCK_TICKS: u32 = 32;

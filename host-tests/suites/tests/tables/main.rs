@@ -7,6 +7,7 @@ mod flaws;
 mod models;
 mod pair_steps;
 mod random_patches;
+mod ritz;
 mod second_order;
 mod splitting;
 mod spoiled_files;

@@ -151,7 +151,7 @@ const SPOILED_PATCHES: &[(&str, SpoilPatch, TableError)] = &[
         "a coefficient is infinite",
         |patch| {
             if let BakedCoefficients::Polynomial(entries) = &mut patch.coefficients {
-                entries[7][1] = f32::NEG_INFINITY;
+                entries[3][1] = f32::NEG_INFINITY;
             }
         },
         TableError::CoefficientNotFinite,
@@ -369,7 +369,7 @@ fn every_number_of_the_tables_is_in_the_words() -> Result<(), Box<dyn Error>> {
         }
         println!("{} numbers spoilt, {refused} refused, the others found by their CRC", count.seen);
         // Indices are a third at most; ends of edges and spokes are refused, for each states the other.
-        assert!(count.seen > 1000 && refused < count.seen / 3);
+        assert!(count.seen > 800 && refused < count.seen / 3, "{refused} of {}", count.seen);
     }
     Ok(())
 }

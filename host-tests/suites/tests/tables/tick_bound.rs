@@ -411,7 +411,7 @@ fn the_worst_tick_of_a_body_that_ships_takes_at_least_half_of_its_bound() {
             let mut random = Random::new(0xb0d7);
             let found = with_body(&baked(name), |body| {
                 // With more effort a tick takes its longest way at most as often.
-                assert!(body.worst_tick(TickWork::EACH).cost <= TickLimit::BENCH.evaluations, "{name}");
+                assert!(body.fits(TickLimit::BENCH), "{name}: {} cycles", body.worst_cycles());
                 let body = &body.with_effort(Effort::ONE);
                 let mut worst = Worst::of(body);
                 worst.everywhere(body, 800, &mut random);
@@ -494,15 +494,118 @@ fn spokes_are_the_ends_of_edges() {
 #[test]
 fn a_body_above_the_limit_is_refused_with_its_vertex() {
     let words = baked("ellipsoid_poles");
-    let bound = with_body(&words, |body| body.worst_tick(TickWork::EACH)).unwrap();
+    let bound = with_body(&words, |body| body.with_effort(Effort::BENCH).worst_tick(TickWork::EACH)).unwrap();
     let load = |evaluations| {
         let (mut faces, mut edges) = (vec![Face::VACANT; 8], vec![Edge::VACANT; 16]);
         let buffer = BodyBuffer { faces: &mut faces, edges: &mut edges };
         let bytes = bytemuck::cast_slice(&words);
-        Body::from_bytes_with(bytes, buffer, TickLimit { evaluations }, &mut || ()).map(|_| ())
+        Body::from_bytes_with(bytes, buffer, TickLimit { evaluations, ..TickLimit::NONE }, &mut || ()).map(|_| ())
     };
     assert_eq!(load(bound.cost), Ok(()));
     let error = load(bound.cost - 1).unwrap_err();
     let FileError::Tick { evaluations, limit, vertex: Some((vertex, spokes)) } = error else { panic!("{error}") };
     assert_eq!((evaluations, limit, Some(vertex), spokes), (bound.cost, bound.cost - 1, bound.vertex, 4));
+}
+
+#[test]
+fn the_modelled_cost_of_a_tick_is_at_least_what_the_emulator_counts() {
+    use palpate::body::tick_cost::{CURVE, SERVO, STEP, evaluation};
+    #[derive(serde::Deserialize)]
+    struct Budget {
+        instructions: BTreeMap<String, u32>,
+    }
+    for board in ["m4", "m7", "m33"] {
+        let file = palpate_suites::repository(&format!("host-tests/budgets/{board}.toml"));
+        let rows: Budget = toml::from_str(&std::fs::read_to_string(file).unwrap()).unwrap();
+        let row = |name: &str| rows.instructions[name];
+        for (kind, (is_rational, curve)) in
+            ["polynomial", "rational"].into_iter().zip([false, true].into_iter().zip(CURVE))
+        {
+            for degree in 1..=5 {
+                let counted = row(&format!("second order, {kind}, degree ({degree}, {degree})"));
+                assert!(evaluation([degree; 2], is_rational) >= counted, "{board} {kind} {degree}");
+            }
+            assert!(curve >= row(&format!("curve, {kind}, degree 10")), "{board}");
+        }
+        let step = row("closest point of the capped box, any, worst") - row("second order, polynomial, degree (3, 3)");
+        assert!(STEP >= step, "{board}: {step}");
+        for servo in ["protected", "folded back", "smooth"] {
+            assert!(SERVO >= row(&format!("servo tick, {servo}, worst")), "{board}");
+        }
+    }
+}
+
+/// [`load`] with a limit.
+fn load_with<R>(mut words: Vec<u32>, limit: TickLimit, work: impl Fn(&Body<'_>) -> R) -> Result<R, FileError> {
+    let load = |words: &[u32]| {
+        let (mut faces, mut edges) = (vec![Face::VACANT; 8], vec![Edge::VACANT; 16]);
+        let buffer = BodyBuffer { faces: &mut faces, edges: &mut edges };
+        Body::from_bytes_with(bytemuck::cast_slice(words), buffer, limit, &mut || ()).map(|body| work(&body))
+    };
+    match load(&words) {
+        Err(FileError::Tables { found, .. }) => {
+            let at = section(&words, Section::Body).0;
+            words[at] = found;
+            mend(&mut words);
+            load(&words)
+        }
+        found => found,
+    }
+}
+
+/// The capped box, not convex, its patches raised to this degree along u and v by zeros.
+fn of_degree(degree: u8) -> Vec<u32> {
+    let mut pieces = Pieces::of(&baked("capped_box"));
+    for (record, [patch, ..]) in &mut pieces.faces {
+        let [u, v, kind, _] = record[0].to_le_bytes();
+        let [u, v] = [u, v].map(usize::from);
+        let (now, width) = (usize::from(degree), components(kind));
+        let span = (u + 1) * (v + 1) * width;
+        let row = (v + 1) * width;
+        *patch = patch
+            .chunks(span)
+            .flat_map(|span| {
+                let mut rows: Vec<u32> = Vec::new();
+                for row in span.chunks(row) {
+                    rows.extend(row);
+                    rows.extend(std::iter::repeat_n(0, (now - v) * width));
+                }
+                rows.extend(std::iter::repeat_n(0, (now - u) * (now + 1) * width));
+                rows
+            })
+            .collect();
+        record[0] = record[0] & 0xffff_0000 | u32::from(degree) | u32::from(degree) << 8;
+    }
+    // Not convex: tracker and search share a tick.
+    pieces.body[1] &= !1;
+    pieces.words()
+}
+
+#[test]
+fn a_body_that_does_not_fit_the_period_is_given_less_effort_and_then_refused() {
+    let words = of_degree(5);
+    let load = |cycles| {
+        load_with(words.clone(), TickLimit { cycles, ..TickLimit::BENCH }, |body| (body.effort(), body.worst_cycles()))
+    };
+    let (all, most) = load(u32::MAX).unwrap();
+    let (effort, cycles) = load(TickLimit::BENCH.cycles).unwrap();
+    println!("degree 5: {most} cycles at {all:?}; {cycles} at {effort:?}");
+    assert!(all == Effort::BENCH && most > TickLimit::BENCH.cycles && cycles <= TickLimit::BENCH.cycles);
+    let (lowest, least) = load_with(words.clone(), TickLimit { cycles: 0, ..TickLimit::BENCH }, |_| ()).map_or_else(
+        |error| match error {
+            FileError::Cycles { cycles, limit: 0 } => (Effort::ONE, cycles),
+            other => panic!("{other}"),
+        },
+        |()| panic!("accepted"),
+    );
+    assert_eq!(load(least).unwrap(), (lowest, least));
+    assert_eq!(load(least - 1), Err(FileError::Cycles { cycles: least, limit: least - 1 }));
+    // The work of its ticks, at the weights of the model, stays within the bound.
+    for limit in [TickLimit::BENCH.cycles, least] {
+        load_with(words.clone(), TickLimit { cycles: limit, ..TickLimit::BENCH }, |body| {
+            let mut worst = Worst::of(body);
+            worst.everywhere(body, 100, &mut Random::new(5));
+        })
+        .unwrap();
+    }
 }

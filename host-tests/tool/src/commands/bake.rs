@@ -3,6 +3,7 @@
 use super::check::{self, Loaded};
 use super::output::{print, write_whole};
 use super::progress;
+use super::soft;
 use super::table_report;
 use crate::cache::Evidence;
 use crate::models::is_baked;
@@ -25,6 +26,11 @@ use std::process::ExitCode;
 ///
 /// A name that ends in .palp gives a binary body file, for palpate::body::Body::from_bytes and every command that takes
 /// a model.
+///
+/// --soft: the body deforms. Of a closed body of one elastic material (youngs_modulus_pa, poissons_ratio, density_kg_per_m3,
+/// damping_ratio) the modes of lowest frequency that a quadratic displacement of space holds go to a modes file, beside
+/// --out or in the current directory: NAME.modes.toml, as closest --modes and sim --modes read it. Rust source gets them
+/// too: MODES and MOTION. A file with modes of your own ([[mode]]) instead of a material is checked.
 ///
 /// Exit status: 0 for a usable body; 1 with --require-certified if it is not certified (the file is written); 2 for bad
 /// input (it is not).
@@ -50,6 +56,19 @@ pub struct Arguments {
     /// Maximum evaluations in one tick; a model above it is refused. The default is the limit of the bench boards.
     #[arg(long, value_name = "EVALUATIONS", default_value_t = TickLimit::BENCH.evaluations)]
     tick_limit: u32,
+    /// Maximum modelled cycles of one tick; a model above it is refused, at the lowest effort too. The default is three
+    /// quarters of the period of the slowest bench board at 4 kHz.
+    #[arg(long, value_name = "CYCLES", default_value_t = TickLimit::BENCH.cycles)]
+    tick_cycles: u32,
+    /// Material of a body that deforms, or modes of your own.
+    #[arg(long, value_name = "MATERIAL.toml", group = "product")]
+    soft: Option<PathBuf>,
+    /// Number of modes, 1 to 8.
+    #[arg(long, value_name = "M", default_value_t = 4, requires = "soft")]
+    modes: usize,
+    /// Faces that do not move; default: the body is free.
+    #[arg(long, value_name = "FACE", num_args = 1.., requires = "soft")]
+    held: Vec<String>,
     /// Exit status 1 if the body is usable but not certified.
     #[arg(long)]
     require_certified: bool,
@@ -83,8 +102,11 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
             (loaded.body, evidence) = loaded.file.located_with_evidence(loaded.body, &options, None, &progress)?;
         }
     }
-    let tables = loaded.body.to_body().with_context(|| loaded.file.label.clone())?;
-    check_tick(&loaded.file.label, &tables, arguments.tick_limit)?;
+    let soft = arguments.soft.as_ref().map(|file| soft::modes(&loaded, file, arguments.modes, &arguments.held));
+    let soft = soft.transpose()?;
+    let limit = TickLimit { evaluations: arguments.tick_limit, cycles: arguments.tick_cycles };
+    let tables = loaded.body.to_body().with_context(|| loaded.file.label.clone())?.fitted(limit);
+    check_tick(&loaded.file.label, &tables, limit)?;
     if let Some(out) = arguments.out.as_ref().filter(|out| is_baked(out)) {
         write_whole(out, &file(&loaded)?)?;
     } else if let Some(out) = &arguments.out {
@@ -94,8 +116,17 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
             model: loaded.file.bytes(),
             centre: loaded.model.centre,
         };
-        let text = source::source(&origin, &loaded.model, &loaded.body)?;
+        let mut text = source::source(&origin, &loaded.model, &loaded.body)?;
+        if let Some(soft) = &soft {
+            text += &source::modes_source(&soft.modes)?;
+        }
         write_whole(out, text.as_bytes())?;
+    }
+    if let Some(soft) = &soft {
+        let path = soft::path(arguments.out.as_deref(), &arguments.model);
+        write_whole(&path, soft.file.as_bytes())?;
+        print(soft.report.as_bytes())?;
+        print(format!("{}\n", path.display()).as_bytes())?;
     }
     if let Some(file) = &arguments.graph {
         write_whole(file, graph::graph(&loaded.body, &loaded.model.name, &labels).as_bytes())?;
@@ -106,7 +137,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
             None if is_body => String::new(),
             None => table_report::of_patches(&loaded.surveys())?,
         };
-        let mut text = text + &table_report::of_tick(&tables)? + &table_report::on_boards(bytes(&loaded))?;
+        let mut text = text + &table_report::of_tick(&tables, limit)? + &table_report::on_boards(bytes(&loaded))?;
         if is_body {
             text += &table_report::as_file(file(&loaded)?.len(), &loaded.body)?;
         }
@@ -127,8 +158,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     Ok(if arguments.require_certified { check::exit_code(verdict) } else { ExitCode::SUCCESS })
 }
 
-/// Refuses a body whose worst tick takes more evaluations than the limit.
-fn check_tick(label: &str, body: &Body<'_>, limit: u32) -> anyhow::Result<()> {
+/// Refuses a body whose worst tick takes more than the limit.
+fn check_tick(label: &str, body: &Body<'_>, limit: TickLimit) -> anyhow::Result<()> {
     let worst = body.worst_tick(TickWork::EACH);
     let place = worst.vertex.and_then(|index| body.vertices().get(usize::from(index)));
     let place = place.map_or_else(String::new, |vertex| {
@@ -136,10 +167,18 @@ fn check_tick(label: &str, body: &Body<'_>, limit: u32) -> anyhow::Result<()> {
         format!(" near the vertex at ({x:.3}, {y:.3}, {z:.3}) mm from the middle, where {} edges end", vertex.spokes)
     });
     ensure!(
-        worst.cost <= limit,
-        "{label}: a tick may take {} evaluations{place}, the limit is {limit}; merge faces that meet there, or raise \
+        worst.cost <= limit.evaluations,
+        "{label}: a tick may take {} evaluations{place}, the limit is {}; merge faces that meet there, or raise \
          --tick-limit if the board is fast enough",
-        worst.cost
+        worst.cost,
+        limit.evaluations
+    );
+    let cycles = body.worst_cycles();
+    ensure!(
+        cycles <= limit.cycles,
+        "{label}: a tick may take {cycles} modelled cycles at the lowest effort{place}, the limit is {}; lower the \
+         degree of its patches, or raise --tick-cycles if the board is faster or its rate lower",
+        limit.cycles
     );
     Ok(())
 }

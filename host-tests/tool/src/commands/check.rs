@@ -1,10 +1,11 @@
 //! `palpate check`: validates a model and certifies its patches.
 
 use super::output::print;
-use super::progress;
+use super::{progress, table_report};
 use crate::models::ModelFile;
+use anyhow::Context as _;
 use clap::Args;
-use palpate::body::EdgeKind;
+use palpate::body::{EdgeKind, TickLimit};
 use palpate::track::{Integrator, PerformanceLimits};
 use palpate_bake::body::BakedSide;
 use palpate_bake::certificate::{Certificate, Finding};
@@ -125,6 +126,16 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         writeln!(report, "{}", loaded.describe(flaw))?;
     }
     limits(&mut report, arguments, &labels, &surveys)?;
+    let body = loaded.body.to_body().with_context(|| loaded.file.label.clone())?;
+    let (fitted, boards) = (body.fitted(TickLimit::BENCH), TickLimit::BENCH);
+    report += "\n";
+    report += &table_report::of_tick(&fitted, boards)?;
+    if !fitted.fits(boards) {
+        writeln!(
+            report,
+            "a tick may exceed the bench boards' limit: for a faster board raise `palpate bake --tick-cycles`"
+        )?;
+    }
     if arguments.rides > 0 {
         ride(&mut report, arguments, &loaded)?;
     }

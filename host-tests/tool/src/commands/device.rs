@@ -28,6 +28,11 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let name = arguments.device.to_string_lossy();
     let own = devices::own(&arguments.device)?;
+    // A copy under another name would lose its remarks without a word.
+    let [device, out] = [&arguments.device, &arguments.out].map(|path| path.canonicalize().ok());
+    if device.is_some() && device == out {
+        bail!("{name}: --out is the device file itself, which is not overwritten; give another name");
+    }
     let text = match arguments.out.extension().and_then(|extension| extension.to_str()) {
         Some("rs") => source(&own, &name),
         Some("h") => c_header(&own, &name),

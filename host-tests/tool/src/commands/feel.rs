@@ -89,7 +89,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         return feel_clean::run(&arguments.device.each(), |device| wish(arguments, device), &threshold, &arguments.out);
     }
     let file = ModelFile::read(&arguments.model)?;
-    let felt = Felt::read(&file.model()?, &file, &arguments.model, None)?;
+    let felt = Felt::read(&file.model()?, &file, &arguments.model, None, None)?;
     let body = match &felt {
         Felt::Body { body, .. } => Some((*body, -felt.middle())),
         Felt::Patch { .. } | Felt::Scene(_) => None,

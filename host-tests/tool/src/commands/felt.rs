@@ -4,15 +4,17 @@ use super::felt_scene::FeltScene;
 use super::progress;
 use crate::drawing::View;
 use crate::models::ModelFile;
-use anyhow::Context;
+use anyhow::{Context, ensure};
 use glam::DVec3;
-use palpate::body::{Body, Effort};
+use palpate::body::{Body, Effort, Soft};
+use palpate::field::{Modal, Mode};
 use palpate::math::Vec3;
 use palpate::patch::{Patch as _, SplinePatch};
 use palpate::scene::Limits;
-use palpate_bake::source::{Origin, body_source, rust_source};
+use palpate::servo::{Settings, SoftBody};
+use palpate_bake::source::{Origin, body_source, modes_source, rust_source};
 use palpate_bake::split::Provenance;
-use palpate_bake::{BakedBody, BakedPatch, Model, NurbsPatch};
+use palpate_bake::{BakedBody, BakedPatch, Model, NurbsPatch, modes};
 use palpate_sim::plant::direction_around;
 use palpate_truth::oracle::OraclePoint;
 use std::path::Path;
@@ -39,9 +41,58 @@ pub enum Felt {
         body: &'static Body<'static>,
         /// The model's name.
         name: String,
+        /// Its modes, where it deforms.
+        soft: Option<SoftModes>,
     },
     /// Bodies that stand and move.
     Scene(FeltScene),
+}
+
+/// The modes of a body that deforms.
+#[derive(Debug)]
+pub struct SoftModes {
+    modes: &'static [Mode],
+    motion: Vec<Modal>,
+}
+
+impl SoftModes {
+    /// Of a modes file.
+    ///
+    /// # Errors
+    /// The first thing wrong with it.
+    pub fn read(path: &Path, model: &Model) -> anyhow::Result<Self> {
+        let label = path.display().to_string();
+        let text = std::fs::read_to_string(path).with_context(|| format!("{label}: cannot be read"))?;
+        let (modes, motion): (Vec<_>, _) = modes::parse_moving(&text, &label, model)?.into_iter().unzip();
+        Ok(Self { modes: modes.leak(), motion })
+    }
+
+    /// A body with these modes, for a loop of these settings.
+    ///
+    /// # Errors
+    /// A mode that the library refuses.
+    pub fn on(&self, body: &Body<'static>, settings: &Settings) -> anyhow::Result<&'static SoftBody<'static>> {
+        let soft = Soft::new(*body, self.modes)?;
+        Ok(Box::leak(Box::new(SoftBody::new(soft, &self.motion, settings)?)))
+    }
+
+    /// The source of a body that deforms, from that of the body.
+    fn source(&self, body: &str, settings: &Settings) -> anyhow::Result<String> {
+        let modes: Vec<_> = self.modes.iter().copied().zip(self.motion.iter().copied()).collect();
+        let Settings { rate_hz, stiffness_n_per_m, damping_n_s_per_m, max_force_n, .. } = *settings;
+        let modes = modes_source(&modes)?;
+        Ok(format!(
+            "mod rest {{\n{body}{modes}}}\n#[allow(unused_imports)]\npub use rest::{{CENTRE, TABLE_CRC}};\n\
+             /// The type of the surface.\npub type Surface = palpate::servo::SoftBody<'static>;\n\
+             /// The body with another effort in each tick.\n\
+             pub const fn with_effort(effort: palpate::body::Effort) -> Surface {{\n    \
+             let settings = palpate::servo::Settings {{ rate_hz: {rate_hz:?}, stiffness_n_per_m: {stiffness_n_per_m:?}, \
+             damping_n_s_per_m: {damping_n_s_per_m:?}, max_force_n: {max_force_n:?}, ..palpate::servo::Settings::DEFAULT }};\n    \
+             let Ok(soft) = palpate::body::Soft::new(rest::BODY.with_effort(effort).fitted(palpate::body::TickLimit::BENCH), &rest::MODES) else {{ panic!(\"modes\") }};\n    \
+             let Ok(surface) = palpate::servo::SoftBody::new(soft, &rest::MOTION, &settings) else {{ panic!(\"motion\") }};\n    \
+             surface\n}}\n"
+        ))
+    }
 }
 
 impl Felt {
@@ -49,13 +100,21 @@ impl Felt {
     ///
     /// # Errors
     /// A fault of the model, or no such patch.
-    pub fn read(model: &Model, from: &ModelFile, file: &Path, patch: Option<&str>) -> anyhow::Result<Self> {
+    pub fn read(
+        model: &Model,
+        from: &ModelFile,
+        file: &Path,
+        patch: Option<&str>,
+        modes: Option<&Path>,
+    ) -> anyhow::Result<Self> {
+        let soft = modes.map(|modes| SoftModes::read(modes, model)).transpose()?;
         let index = match patch {
             Some(wanted) => Some(patch_index(model, file, wanted)?),
             // A patch that was cut into faces is one no more in a file of tables.
             None => (from.baked().map_or(model.patches.len(), |body| body.faces.len()) == 1).then_some(0),
         };
         if let Some(index) = index {
+            ensure!(soft.is_none(), "{}: --modes applies to bodies, and this is one patch", from.label);
             let baked = only_patch(model, from, index)?;
             let patch: &'static SplinePatch<'static> = Box::leak(Box::new(baked.to_patch()?));
             return Ok(Self::Patch { surface: model.patches[index].clone(), baked: Box::new(baked), patch });
@@ -68,7 +127,7 @@ impl Felt {
         drop(bar);
         // That of the emulated boards, whose loop this is.
         let body: &'static Body<'static> = Box::leak(Box::new(baked.to_body()?.with_effort(Effort::ONE)));
-        Ok(Self::Body { labels: baked.labels(model), baked: Box::new(baked), body, name: model.name.clone() })
+        Ok(Self::Body { labels: baked.labels(model), baked: Box::new(baked), body, name: model.name.clone(), soft })
     }
 
     /// Its name.
@@ -98,15 +157,18 @@ impl Felt {
         }
     }
 
-    /// Its tables as Rust source; a scene's with these limits.
+    /// Its tables as Rust source; a scene's with these limits, a soft body's for a loop of these settings.
     ///
     /// # Errors
     /// A bug of the baker.
-    pub fn source(&self, origin: &Origin<'_>, limits: Limits) -> anyhow::Result<String> {
+    pub fn source(&self, origin: &Origin<'_>, limits: Limits, settings: &Settings) -> anyhow::Result<String> {
         Ok(match self {
             Self::Scene(scene) => scene.source(limits)?,
             Self::Patch { baked, .. } => rust_source(origin, std::slice::from_ref(&**baked))?,
-            Self::Body { baked, labels, .. } => body_source(origin, baked, labels)?,
+            Self::Body { baked, labels, soft, .. } => {
+                let source = body_source(origin, baked, labels)?;
+                soft.as_ref().map_or(Ok(source.clone()), |soft| soft.source(&source, settings))?
+            }
         })
     }
 

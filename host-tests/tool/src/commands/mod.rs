@@ -30,6 +30,7 @@ pub mod progress;
 pub mod race;
 pub mod rate;
 pub mod sim;
+mod soft;
 mod table_report;
 pub mod talk;
 pub mod test;

@@ -41,6 +41,9 @@ pub struct SceneOptions {
     /// One patch of the model, by name or index; default: all patches as one body
     #[arg(long)]
     pub patch: Option<String>,
+    /// Modes file of a body that deforms, as `palpate bake` writes it
+    #[arg(long, value_name = "MODES.toml")]
+    pub modes: Option<PathBuf>,
     /// Device: a name, or your own file (my.toml); a surface needs three joints
     #[arg(long, value_parser = devices::parser(), default_value = "woodenhaptics-2016")]
     pub device: Chosen,
@@ -108,10 +111,11 @@ impl SceneOptions {
             if self.patch.is_some() {
                 bail!("--patch applies to models; {} is a scene", file.label);
             }
+            ensure!(self.modes.is_none(), "--modes applies to models; {} is a scene", file.label);
             (Felt::Scene(FeltScene::read(&file, &self.model)?), DVec3::ZERO)
         } else {
             let model = file.model()?;
-            (Felt::read(&model, &file, &self.model, self.patch.as_deref())?, model.centre)
+            (Felt::read(&model, &file, &self.model, self.patch.as_deref(), self.modes.as_deref())?, model.centre)
         };
         let body_origin = match self.at.as_deref() {
             Some(&[x, y, z]) => (DVec3::new(x, y, z) * 1e-3 + centre).as_vec3(),
@@ -204,7 +208,8 @@ impl Scene {
     fn host_loop_of<K: Kinematics<3>>(&self, device: &'static Device<K, 3>) -> anyhow::Result<Box<dyn Link>> {
         match &self.felt {
             Felt::Patch { patch, .. } => self.host_loop_on(device, *patch),
-            Felt::Body { body, .. } => self.host_loop_on(device, *body),
+            Felt::Body { body, soft: Some(soft), .. } => self.host_loop_on(device, soft.on(body, &self.settings)?),
+            Felt::Body { body, soft: None, .. } => self.host_loop_on(device, *body),
             Felt::Scene(scene) => match scene.count() {
                 1 => self.host_loop_on(device, scene.scene::<1>(self.limits())?),
                 2 => self.host_loop_on(device, scene.scene::<2>(self.limits())?),
@@ -237,6 +242,7 @@ impl Scene {
     pub fn recording(&self, trace: &Trace, on: &str) -> anyhow::Result<Recording> {
         let (bodies, scene) = match &self.felt {
             Felt::Scene(scene) => scene.recorded(self.limits())?,
+            Felt::Body { soft: Some(_), .. } => return Err(Cut::Soft.into()),
             Felt::Body { baked, .. } => (vec![self.recorded_body(&self.file.model()?, baked)?], None),
             Felt::Patch { surface, .. } => (vec![self.recorded_patch(surface)?], None),
         };
@@ -291,7 +297,7 @@ impl Scene {
     pub fn source(&self) -> anyhow::Result<String> {
         // What would not compile is said here.
         self.host_loop()?;
-        self.felt.source(&self.origin(), self.limits())
+        self.felt.source(&self.origin(), self.limits(), &self.settings)
     }
 
     /// The model file's name, without its directory.

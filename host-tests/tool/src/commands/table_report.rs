@@ -1,7 +1,6 @@
 //! The size of baked tables in flash, and the properties of their locator.
 
 use crate::firmware::{BenchBoard, Kind};
-use crate::tick_cost;
 use palpate::body::{
     Body, MAX_EVALUATIONS, MAX_EVALUATIONS_CONVEX, MAX_EVALUATIONS_PER_CANDIDATE, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX,
     TickLimit, TickWork,
@@ -47,13 +46,15 @@ pub(super) fn of_patches(surveys: &[Survey]) -> Result<String, Error> {
     Ok(report)
 }
 
-/// The proved worst case of a tick, and of a pass of the audit.
-pub(super) fn of_tick(body: &Body<'_>) -> Result<String, Error> {
+/// The proved worst case of a tick with the effort that fits the limit, and of a pass of the audit.
+pub(super) fn of_tick(body: &Body<'_>, limit: TickLimit) -> Result<String, Error> {
     let mut report = String::new();
-    let worst = body.worst_tick(TickWork::EACH);
-    let cycles = tick_cost::cycles(body);
-    let limit = TickLimit::BENCH.evaluations;
-    let meaning = format!("evaluations at most, {cycles} modelled cycles on a Cortex-M4F; the boards allow {limit}");
+    let (worst, cycles, effort) = (body.worst_tick(TickWork::EACH), body.worst_cycles(), body.effort());
+    let TickLimit { evaluations, cycles: granted } = limit;
+    let meaning = format!(
+        "evaluations at most of {evaluations}, {cycles} modelled cycles of a Cortex-M4F of {granted}, at effort {},{}",
+        effort.steps, effort.candidates
+    );
     row(&mut report, "worst tick", worst.cost as usize, &meaning)?;
     if !body.is_convex() {
         let meaning = "ticks at most in a pass; two take a nearer point that six evaluations find";

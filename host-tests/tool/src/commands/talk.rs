@@ -3,16 +3,19 @@
 use super::bake;
 use crate::firmware::Board;
 use crate::models::is_baked;
-use crate::talk::{Console, Emulated, Misunderstood, Step};
+use crate::talk::{Button, Console, Emulated, Misunderstood, Press, Step, at_knob};
 use anyhow::{Context as _, bail};
 use clap::Args;
 use palpate::wire::hold;
 use palpate_link::{Device, Error, Line, Port, SILENCE};
-use palpate_sim::simulated::{Hand, Kind, Simulated};
+use palpate_sim::knob::{KnobFlash, SharedKnob, SimulatedKnob};
+use palpate_sim::plant::DialSettings;
+use palpate_sim::simulated::{self, Simulated};
 use std::io::{IsTerminal as _, Write, stdin, stdout};
 use std::path::Path;
 use std::process::ExitCode;
 use std::sync::mpsc::{Receiver, TryRecvError, sync_channel};
+use std::time::Duration;
 
 /// Controls a running device: reads it, moves and switches its bodies, uploads bodies, adds a force.
 ///
@@ -33,6 +36,18 @@ pub struct Arguments {
     /// The boards' loop compiled for the host, with the same arm
     #[arg(long, group = "where")]
     host: bool,
+    /// The emulated or simulated device
+    #[arg(long, value_enum, default_value = "arm")]
+    device: Kind,
+}
+
+/// A device that can be talked with without having it.
+#[derive(clap::ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    /// An arm over two capped boxes
+    Arm,
+    /// A knob, whose dial a hand turns there and back
+    Knob,
 }
 
 /// Runs the command.
@@ -40,32 +55,47 @@ pub struct Arguments {
 /// # Errors
 /// The cause, for the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
-    let (line, hand): (Box<dyn Line>, _) = match (&arguments.port, arguments.emulator, arguments.host) {
+    let knob = (arguments.device == Kind::Knob).then(|| SharedKnob::new(DialSettings::gimbal_knob()));
+    let (line, button): (Box<dyn Line>, Option<Button>) = match (&arguments.port, arguments.emulator, arguments.host) {
         (Some(port), ..) => (Box::new(Port::open(port, arguments.baud)?), None),
         (None, Some(board), _) => {
-            let device = Emulated::start(board)?;
-            let hand = device.hand();
-            (Box::new(device), Some(hand))
+            let device = match &knob {
+                Some(knob) => Emulated::start_knob(board, knob)?,
+                None => Emulated::start(board)?,
+            };
+            let button = device.button();
+            (Box::new(device), Some(button))
         }
-        (None, None, true) => {
-            let device = Simulated::new(Kind::default())?.paced();
-            let hand = device.hand();
-            (Box::new(device), Some(hand))
-        }
+        (None, None, true) => match &knob {
+            Some(knob) => {
+                let device = SimulatedKnob::new(knob, Box::leak(Box::new(KnobFlash::new()))).paced();
+                (Box::new(device), Some(at_knob(knob)))
+            }
+            None => {
+                let device = Simulated::new(simulated::Kind::default())?.paced();
+                let hand = device.hand();
+                (Box::new(device), Some(Box::new(move |press| hand.enables(press == Press::Down))))
+            }
+        },
         (None, None, false) => bail!("either --port, --emulator or --host"),
     };
-    talk(line, hand.as_ref())
+    talk(line, button, knob.as_ref())
 }
 
-fn talk(line: Box<dyn Line>, hand: Option<&Hand>) -> anyhow::Result<ExitCode> {
+fn talk(line: Box<dyn Line>, button: Option<Button>, knob: Option<&SharedKnob>) -> anyhow::Result<ExitCode> {
     let mut device = Device::over(line)?;
-    if let Some(hand) = hand {
-        // A button is asked for once the device has seen it released for long enough.
-        let until = device.now() + SILENCE;
-        while device.view(SILENCE)?.hold & hold::RELEASE_FIRST != 0 && device.now() < until {}
-        hand.enables(true);
+    if let Some(button) = &button {
+        press(&mut device, button)?;
+        if let Some(knob) = knob {
+            // The first press has it aligned; then the device wants to see the button released.
+            let until = device.now() + ALIGNED;
+            while device.view(SILENCE)?.hold & hold::RELEASE_FIRST == 0 && device.now() < until {}
+            button(Press::Up);
+            press(&mut device, button)?;
+            knob.world().turns = true;
+        }
     }
-    let mut console = Console::new(device, &file_of);
+    let mut console = Console::new(device, &file_of).with_button(button);
     let (lines, by_hand) = (lines(), stdin().is_terminal());
     let mut output = stdout().lock();
     writeln!(output, "{}", console.who())?;
@@ -85,6 +115,17 @@ fn talk(line: Box<dyn Line>, hand: Option<&Hand>) -> anyhow::Result<ExitCode> {
         console.tend(&mut output)?;
         output.flush()?;
     }
+}
+
+/// How long a knob takes to be aligned at most.
+const ALIGNED: Duration = Duration::from_secs(5);
+
+/// A button is asked for once the device has seen it released for long enough.
+fn press(device: &mut Device<Box<dyn Line>>, button: &Button) -> Result<(), Error> {
+    let until = device.now() + SILENCE;
+    while device.view(SILENCE)?.hold & hold::RELEASE_FIRST != 0 && device.now() < until {}
+    button(Press::Down);
+    Ok(())
 }
 
 /// Whether the conversation can go on after it.

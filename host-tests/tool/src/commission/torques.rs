@@ -2,7 +2,7 @@
 //! with and without a known weight.
 //!
 //! A joint that just moves up has a motor that carries the load and the friction; one that just sinks back, the load
-//! less the friction. Their mean is the load, half their difference the friction; what a known weight adds to the load
+//! less the friction. Their mean is the load, which weighs the links, half their difference the friction; what a known weight adds to the load
 //! is what a share of full duty is worth. Where that duty lies is found briskly first; then it is come to slowly, for a
 //! joint that has just come loose is not seen to move before it has gone two counts, and by how much the duty has grown
 //! meanwhile is taken for friction too.
@@ -14,7 +14,7 @@ use super::motors::away;
 use super::motors::{Growth, duty, grow, most};
 use super::{Finding, Lab};
 use anyhow::{Context as _, bail};
-use palpate_sim::devices::{DeviceFile, OwnDevice};
+use palpate_sim::devices::{DeviceFile, LinkageEntry, MechanismEntry, OwnDevice};
 use std::f64::consts::TAU;
 
 /// Load of the weight on a joint, as a fraction of its motor's data-sheet torque: maximum, and minimum where gravity
@@ -37,6 +37,7 @@ pub(super) fn find_torques(
     findings: &mut Vec<Finding>,
 ) -> anyhow::Result<()> {
     let most = most(own);
+    let mut held = [0.0; 3];
     let jacobian = own.plant.mechanism(0.0).jacobian(centre);
     for (index, load) in loads.into_iter().enumerate() {
         let column: [f64; 3] = core::array::from_fn(|axis| jacobian[axis][index]);
@@ -62,6 +63,8 @@ pub(super) fn find_torques(
         let [weighed_up, weighed_down] = edges(lab, file, (centre, index), (towards, most))?;
         lab.hands.pull([0.0; 3])?;
         let full = pulled * lever / (0.5 * (weighed_up + weighed_down) - 0.5 * (up + down));
+        // The motor holds against the load.
+        held[index] = -towards * 0.5 * (up + down) * full;
         let joint = &mut file.joint[index];
         let motor = &mut joint.motor;
         let found = full / (motor.current_at_full * motor.ratio).abs();
@@ -83,7 +86,55 @@ pub(super) fn find_torques(
             joint.friction = friction;
         }
     }
+    weigh(file, loads, held, findings);
     Ok(())
+}
+
+/// Share of a load by which holding it may differ: the torque constant's uncertainty. Less than the 10 % with which a
+/// light arm sinks.
+const WEIGHT_WITHIN: f64 = 0.05;
+/// And this, N·m: a few steps of the duty beyond the one at which a joint just moves.
+const STEPS: f64 = 2e-3;
+/// Loads below which a joint weighs nothing, N·m: friction hides them.
+const LIGHT: f64 = 0.01;
+
+/// Compares what holding each joint takes, N·m, with gravity's loads by the file, and writes the masses that explain
+/// it.
+fn weigh(file: &mut DeviceFile, loads: [f64; 3], held: [f64; 3], findings: &mut Vec<Finding>) {
+    let differs = |joint: usize| (held[joint] - loads[joint]).abs() > WEIGHT_WITHIN * loads[joint].abs() + STEPS;
+    let off: Vec<usize> = (0..3).filter(|joint| differs(*joint)).collect();
+    for &joint in &off {
+        let (name, held, load) = (&file.joint[joint].name, held[joint], loads[joint]);
+        findings.push(Finding(format!("joint {name}: holding it takes {held:.3} N·m, not {load:.3}")));
+    }
+    let ratio = |joint: usize| if loads[joint].abs() > LIGHT { held[joint] / loads[joint] } else { f64::NAN };
+    let all = loads.iter().map(|load| load * load).sum::<f64>();
+    let common = (0..3).map(|joint| held[joint] * loads[joint]).sum::<f64>() / all;
+    // A load the other way, or of a joint that should have none, is no matter of masses.
+    let masses = off.iter().all(|joint| ratio(*joint) > 0.0);
+    if off.is_empty() {
+        return;
+    }
+    match &mut file.mechanism {
+        MechanismEntry::SerialArm { end_masses, .. } if masses => {
+            for joint in off {
+                // The first joint is a turntable, whose ratio is none.
+                end_masses[joint - 1] *= ratio(joint);
+            }
+            findings.push(Finding(format!("end masses {:.4} and {:.4} kg", end_masses[0], end_masses[1])));
+        }
+        MechanismEntry::LinkageArm(LinkageEntry { masses: Some(links), .. }) if masses => {
+            links.iter_mut().for_each(|link| link.mass *= common);
+            findings.push(Finding(format!("links weigh {common:.3} times as much")));
+        }
+        MechanismEntry::Delta { carried_mass, thigh_moment, .. } if masses => {
+            (*carried_mass, *thigh_moment) = (*carried_mass * common, *thigh_moment * common);
+            findings.push(Finding(format!("plate and thighs weigh {common:.3} times as much")));
+        }
+        _ => findings.push(Finding(
+            "the file's masses do not explain it: check them, and that nothing but the arm pulls".to_owned(),
+        )),
+    }
 }
 
 /// The shares of full duty, off the support, that just move a joint up, and just let it sink back.

@@ -215,6 +215,8 @@ pub enum PlantedFault {
     Encoders(usize, usize),
     /// The motors of two joints are swapped.
     Motors(usize, usize),
+    /// The links' weight is multiplied by this factor.
+    Weight(f64),
 }
 
 impl Planted {
@@ -251,6 +253,7 @@ impl Planted {
                 self.mark_on.swap(a, b);
             }
             PlantedFault::Motors(a, b) => self.motor_on.swap(a, b),
+            PlantedFault::Weight(times) => self.plant.gravity *= times,
         }
         self
     }
@@ -260,12 +263,12 @@ impl FromStr for PlantedFault {
     type Err = String;
 
     /// `encoder-sign:0`, `motor-sign:2`, `ratio:0=1.25`, `zero:1=0.2`, `torque:2=0.8`, `friction:0=2`, `encoders:0-1`,
-    /// `motors:1-2`.
+    /// `motors:1-2`, `weight:1.1`.
     fn from_str(text: &str) -> Result<Self, String> {
         let refusal = || {
             format!(
                 "{text}: it must be encoder-sign:J, motor-sign:J, ratio:J=TIMES, zero:J=RADIANS, torque:J=TIMES, \
-                 friction:J=TIMES, encoders:J-K or motors:J-K, with joints from 0 to 2"
+                 friction:J=TIMES, encoders:J-K, motors:J-K or weight:TIMES, with joints from 0 to 2"
             )
         };
         let joint = |text: &str| text.parse::<usize>().ok().filter(|joint| *joint < 3).ok_or_else(refusal);
@@ -289,6 +292,10 @@ impl FromStr for PlantedFault {
             "friction" => number().map(|(joint, by)| Self::Friction(joint, by))?,
             "encoders" => pair().map(|(a, b)| Self::Encoders(a, b))?,
             "motors" => pair().map(|(a, b)| Self::Motors(a, b))?,
+            "weight" => {
+                let times = rest.parse().ok().filter(|times| (0.0..=10.0).contains(times));
+                Self::Weight(times.ok_or_else(refusal)?)
+            }
             _ => return Err(refusal()),
         })
     }

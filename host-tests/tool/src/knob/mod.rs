@@ -6,5 +6,5 @@ pub mod turning;
 
 pub use cogging::Recording;
 pub use cogging::record;
-pub use on_host::{KnobLine, KnobWorld, SharedKnob};
+pub use on_host::KnobLine;
 pub use palpate_sim::knob::*;

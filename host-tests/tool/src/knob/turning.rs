@@ -1,6 +1,6 @@
 //! A hand that turns the knob through every feel, and the measurements during that.
 
-use super::{DIAL_ZERO, FEELS, KnobServo, KnobState, MODULATION, SEARCH, SETTINGS, report, widths};
+use super::{DIAL_ZERO, FEELS, KnobServo, KnobState, MODULATION, SEARCH, SETTINGS, report, widths, widths_of};
 use crate::firmware::LinkError;
 use palpate::device::Counts;
 use palpate::device::sensor::Frozen;
@@ -60,7 +60,7 @@ pub fn turn(
         // A sensor that does not answer is one that says what cannot be.
         let counts = [dial.counts().unwrap_or(i32::MIN), i32::from(feel), (dial.supply_volts() * 1e3) as i32];
         let report = exchange(&Sensors { tick, counts, enable: true })?;
-        dial.advance(given(&report));
+        dial.advance(widths_of(&report));
         turned.push(Turned {
             time: dial.time(),
             feel,
@@ -98,11 +98,6 @@ fn grip(dial: &mut Dial, tick: u32) -> (u8, Option<usize>) {
     };
     dial.hold(Fingers { rate, ..Fingers::clamp(aim) });
     (index as u8, way)
-}
-
-/// The widths of a report; `None` for a stage that is disabled.
-fn given(report: &Report) -> Option<[f64; 3]> {
-    (report.duties != [i16::MIN; 3]).then(|| report.duties.map(|duty| f64::from(duty) / 65_534.0 + 0.5))
 }
 
 /// The knob's loop compiled for the host, as the firmware has it.

@@ -83,6 +83,9 @@ pub enum Cut {
     /// A device with fewer joints.
     #[error("{0} has too few joints to feel a surface in space")]
     Joints(&'static str),
+    /// The run rendered a body that deforms, which the page has none of.
+    #[error("a body that deforms is not recorded: the page shows rigid ones")]
+    Soft,
 }
 
 /// How the loop of a run was set.

@@ -1,5 +1,6 @@
 //! A line of the console, understood: millimetres and degrees to metres and radians.
 
+use palpate::render::{Detents, DialFriction, Ends, FeelPart, Notch, Spring, Wave};
 use std::f32::consts::TAU;
 use std::path::PathBuf;
 use std::str::{FromStr, SplitWhitespace};
@@ -50,6 +51,14 @@ pub enum Asked {
     PutBack(u8),
     /// The same, and the body stored in flash is erased.
     Forget(u8),
+    /// A part of a knob's feel.
+    Feel(FeelPart),
+    /// That feel into flash, or out of it.
+    KeepFeel(bool),
+    /// The dial, repeatedly, for a number of seconds.
+    Dial(f32),
+    /// The enable button of a simulated device, pressed or released.
+    Press(bool),
     /// Stop.
     Stop,
     /// Go on after a reset.
@@ -91,7 +100,7 @@ pub enum Misunderstood {
 }
 
 /// Every command: its syntax, and its effect.
-pub const FORMS: [(&str, &str); 22] = [
+pub const FORMS: [(&str, &str); 36] = [
     ("who", "what the device says of itself"),
     ("where", "tip, velocity, body, gap, force, phase and fault as they are now"),
     ("watch [SECONDS]", "the same ten times a second, for 5 s"),
@@ -110,6 +119,20 @@ pub const FORMS: [(&str, &str); 22] = [
     ("keep BODY FILE", "the same, and it stays without power; the motors must be off, and stay off meanwhile"),
     ("back BODY", "the body that the device was built with takes the place of an uploaded or kept one"),
     ("forget BODY", "the same, and delete the stored body; the motors must be off"),
+    ("detents DEGREES MNM [CENTRE]", "of a knob: smooth detents of this pitch and torque, in mN·m; `detents off`"),
+    ("clicks DEGREES MNM FIRST LAST", "detents that snap, numbered from the first to the last; `clicks off`"),
+    ("texture DEGREES MNM", "a fine one of this pitch; `texture off`"),
+    ("spring MNM_PER_DEGREE MAX REST", "a spring to this angle with a maximum torque; `spring off`"),
+    ("ends FROM TO MNM_PER_DEGREE [DAMPING]", "end stops between angles, damped in mN·m·s/rad; `ends off`"),
+    ("damping VALUE", "damping everywhere in mN·m·s/rad"),
+    ("friction MNM [RATE]", "dry friction, whole from this rate on, 2 rad/s; `friction off`"),
+    ("notch AT WIDTH MNM", "a click at one angle, in degrees; `notch off`"),
+    ("free", "no part is left"),
+    ("dial [SECONDS]", "the dial ten times a second, for 5 s: angle, rate, torque, detent, feel"),
+    ("keep-feel", "stores the knob's feel without power; enable released, then held for half a second to confirm"),
+    ("forget-feel", "clears the stored one, confirmed in the same way"),
+    ("press", "presses the enable button of a simulated or emulated device"),
+    ("release", "releases it"),
     ("wait SECONDS", "the next line of a file waits"),
     ("stop", "stops the device until it is reset"),
     ("ack", "goes on after a reset by the watchdog or a brown-out"),
@@ -221,6 +244,93 @@ impl<'a> Words<'a> {
     }
 }
 
+/// Parts of a knob's feel, in degrees and mN·m.
+impl Words<'_> {
+    /// Whether the part is to be taken away.
+    fn is_off(&mut self) -> bool {
+        let is_off = self.rest.clone().next() == Some("off");
+        if is_off {
+            self.rest.next();
+        }
+        is_off
+    }
+
+    fn angle(&mut self, what: &'static str) -> Result<f32, Misunderstood> {
+        Ok(self.number(what)? / 360.0 * TAU)
+    }
+
+    fn milli(&mut self, what: &'static str) -> Result<f32, Misunderstood> {
+        Ok(self.number(what)? / 1e3)
+    }
+
+    fn stiffness(&mut self) -> Result<f32, Misunderstood> {
+        Ok(self.milli("MNM_PER_DEGREE")? * 360.0 / TAU)
+    }
+
+    fn optional_number(&mut self, default: f32) -> Result<f32, Misunderstood> {
+        self.optional().map_or(Ok(default), |word| self.is_number(word, "number"))
+    }
+
+    fn integer(&mut self, what: &'static str) -> Result<i32, Misunderstood> {
+        let word = self.word(what)?;
+        self.parsed(word, "whole number")
+    }
+
+    fn wave(&mut self) -> Result<Wave, Misunderstood> {
+        let (pitch_rad, torque_n_m) = (self.angle("DEGREES")?, self.milli("MNM")?);
+        Ok(Wave { pitch_rad, torque_n_m, centre_rad: self.optional_number(0.0)? / 360.0 * TAU })
+    }
+
+    fn clicks(&mut self) -> Result<Detents, Misunderstood> {
+        let (pitch, max_force) = (self.angle("DEGREES")?, self.milli("MNM")?);
+        let snap = 0.55;
+        // The whole torque where the next one takes over, and four times as stiff beyond the outer ones.
+        let stiffness = max_force / (snap * pitch);
+        let (first, last) = (self.integer("FIRST")?, self.integer("LAST")?);
+        Ok(Detents { pitch, stiffness, damping: 0.0, snap, first, last, wall_stiffness: 4.0 * stiffness, max_force })
+    }
+
+    fn spring(&mut self) -> Result<Spring, Misunderstood> {
+        let (stiffness_n_m_per_rad, max_torque_n_m) = (self.stiffness()?, self.milli("MAX")?);
+        Ok(Spring { stiffness_n_m_per_rad, rest_rad: self.angle("REST")?, max_torque_n_m })
+    }
+
+    fn ends(&mut self) -> Result<Ends, Misunderstood> {
+        let (between_rad, stiffness_n_m_per_rad) = ([self.angle("FROM")?, self.angle("TO")?], self.stiffness()?);
+        Ok(Ends { between_rad, stiffness_n_m_per_rad, damping_n_m_s_per_rad: self.optional_number(1.0)? / 1e3 })
+    }
+
+    fn dial_friction(&mut self) -> Result<DialFriction, Misunderstood> {
+        Ok(DialFriction { torque_n_m: self.milli("MNM")?, whole_at_rad_per_s: self.optional_number(2.0)? })
+    }
+
+    fn notch(&mut self) -> Result<Notch, Misunderstood> {
+        Ok(Notch { at_rad: self.angle("AT")?, width_rad: self.angle("WIDTH")?, torque_n_m: self.milli("MNM")? })
+    }
+
+    /// The part of this name.
+    fn part(&mut self, name: &str) -> Result<FeelPart, Misunderstood> {
+        let is_off = self.is_off();
+        fn unless<T>(
+            is_off: bool,
+            part: impl FnOnce() -> Result<T, Misunderstood>,
+        ) -> Result<Option<T>, Misunderstood> {
+            if is_off { Ok(None) } else { part().map(Some) }
+        }
+        Ok(match name {
+            "detents" => FeelPart::Detents(unless(is_off, || self.wave())?),
+            "clicks" => FeelPart::Clicks(unless(is_off, || self.clicks())?),
+            "texture" => FeelPart::Texture(unless(is_off, || self.wave())?),
+            "spring" => FeelPart::Spring(unless(is_off, || self.spring())?),
+            "ends" => FeelPart::Ends(unless(is_off, || self.ends())?),
+            "damping" => FeelPart::Damping(unless(is_off, || self.milli("VALUE"))?.unwrap_or(0.0)),
+            "friction" => FeelPart::Friction(unless(is_off, || self.dial_friction())?),
+            "notch" => FeelPart::Notch(unless(is_off, || self.notch())?),
+            _ => FeelPart::Free,
+        })
+    }
+}
+
 impl FromStr for Asked {
     type Err = Misunderstood;
 
@@ -270,6 +380,17 @@ impl FromStr for Asked {
             "keep" => Self::Keep(words.body()?, PathBuf::from(words.word("FILE")?)),
             "back" => Self::PutBack(words.body()?),
             "forget" => Self::Forget(words.body()?),
+            "detents" | "clicks" | "texture" | "spring" | "ends" | "damping" | "friction" | "notch" | "free" => {
+                Self::Feel(words.part(name)?)
+            }
+            "keep-feel" => Self::KeepFeel(true),
+            "forget-feel" => Self::KeepFeel(false),
+            "dial" => {
+                let word = words.optional();
+                Self::Dial(words.seconds(word, 5.0)?)
+            }
+            "press" => Self::Press(true),
+            "release" => Self::Press(false),
             "stop" => Self::Stop,
             "ack" => Self::Acknowledge,
             _ => return Err(Misunderstood::Word(name.to_owned())),
@@ -308,6 +429,18 @@ mod tests {
             // Roundings of numbers of 1.
             assert!(found.iter().zip(wanted).all(|(found, wanted)| (found - wanted).abs() < 1e-6), "{line}: {found:?}");
         }
+    }
+
+    #[test]
+    fn degrees_and_millinewton_metres_become_a_part_of_a_feel() {
+        let Ok(Asked::Feel(FeelPart::Spring(Some(spring)))) = "spring 1 40 -90".parse() else { panic!("a spring") };
+        // 1 mN·m a degree is 0.057,296 N·m/rad; roundings.
+        assert!((spring.stiffness_n_m_per_rad - 0.057_296).abs() < 1e-6 && spring.max_torque_n_m == 0.04);
+        assert!((spring.rest_rad + TAU / 4.0).abs() < 1e-6);
+        let Ok(Asked::Feel(FeelPart::Clicks(Some(clicks)))) = "clicks 15 30 -5 5".parse() else { panic!("clicks") };
+        assert!((clicks.stiffness * clicks.snap * clicks.pitch - 0.03).abs() < 1e-6, "{clicks:?}");
+        assert_eq!("notch off".parse(), Ok(Asked::Feel(FeelPart::Notch(None))));
+        assert_eq!("free".parse(), Ok(Asked::Feel(FeelPart::Free)));
     }
 
     #[test]

@@ -6,7 +6,8 @@ use palpate::servo::{Fault, Phase};
 use palpate::track::Contact;
 use palpate::wire::{Sensors, hold};
 use palpate_bake::file::BakedFile;
-use palpate_link::{BodyPose, Command, Device, Error, Line, View};
+use palpate_link::{BodyPose, Command, Device, Dial, Error, Line, View};
+use palpate_sim::knob::{SharedKnob, widths_of};
 use palpate_sim::plant::{HandSettings, Plant, PlantSettings};
 use palpate_sim::simulated::Hand;
 use std::collections::BTreeMap;
@@ -33,6 +34,20 @@ pub enum Step {
 /// Makes a body's file of what somebody names.
 pub type Bake = dyn Fn(&Path) -> anyhow::Result<Vec<u8>> + Sync;
 
+/// Actions of a simulated finger.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Press {
+    /// It presses the button.
+    Down,
+    /// It releases it.
+    Up,
+    /// It confirms what the device is going to ask for.
+    Confirm,
+}
+
+/// The finger at an enable button.
+pub type Button = Box<dyn Fn(Press)>;
+
 /// A session with a device. No method waits for a person: call [`Self::tend`] while no command comes.
 pub struct Console<'a, L> {
     device: Device<L>,
@@ -43,18 +58,37 @@ pub struct Console<'a, L> {
     pushes: Option<([f32; 3], Instant, Option<Instant>)>,
     /// Until when the loop is shown, and when it was last.
     watches: Option<(Instant, Option<Instant>)>,
+    /// The same for the dial.
+    turns: Option<(Instant, Option<Instant>)>,
+    /// The enable button of a simulated device.
+    button: Option<Button>,
     waits: Option<Instant>,
 }
 
 impl<'a, L: Line> Console<'a, L> {
     /// With this device; bodies that are uploaded come from `bake`.
     pub fn new(device: Device<L>, bake: &'a Bake) -> Self {
-        Self { device, bake, poses: BTreeMap::new(), pushes: None, watches: None, waits: None }
+        Self {
+            device,
+            bake,
+            poses: BTreeMap::new(),
+            pushes: None,
+            watches: None,
+            turns: None,
+            button: None,
+            waits: None,
+        }
+    }
+
+    /// With a hand at its enable button.
+    #[must_use]
+    pub fn with_button(self, button: Option<Button>) -> Self {
+        Self { button, ..self }
     }
 
     /// Whether the next line of a file should wait.
     pub fn is_busy(&self) -> bool {
-        self.watches.is_some() || self.waits.is_some()
+        self.watches.is_some() || self.turns.is_some() || self.waits.is_some()
     }
 
     /// Keeps the session alive for a moment; call it repeatedly.
@@ -83,6 +117,14 @@ impl<'a, L: Line> Console<'a, L> {
                 writeln!(output, "{}", said(&view))?;
             }
             self.watches = self.watches.filter(|_| now < until);
+        }
+        if let Some((until, last)) = self.turns {
+            if last.is_none_or(|last| now.saturating_duration_since(last) >= SHOWS) {
+                self.turns = Some((until, Some(now)));
+                let dial = self.device.dial(Duration::ZERO)?;
+                writeln!(output, "{}", turned(&dial))?;
+            }
+            self.turns = self.turns.filter(|_| now < until);
         }
         Ok(())
     }
@@ -117,6 +159,26 @@ impl<'a, L: Line> Console<'a, L> {
             Asked::Watch(seconds) => {
                 self.watches = Some((later(seconds, now), None));
                 return Ok(Step::GoesOn);
+            }
+            Asked::Dial(seconds) => {
+                // A device that is no knob says so at once.
+                self.device.dial(SHOWS)?;
+                self.turns = Some((later(seconds, now), None));
+                return Ok(Step::GoesOn);
+            }
+            Asked::Feel(part) => self.device.feel(part)?,
+            Asked::KeepFeel(keeps) => {
+                match &self.button {
+                    Some(button) => button(Press::Confirm),
+                    None => writeln!(output, "now hold the enable button for half a second, and release it")?,
+                }
+                output.flush()?;
+                self.device.keep_feel(keeps)?;
+            }
+            Asked::Press(pressed) => {
+                let button = self.button.as_ref();
+                let button = button.ok_or_else(|| anyhow::anyhow!("a real device has its own button: press that"))?;
+                button(if pressed { Press::Down } else { Press::Up });
             }
             Asked::Wait(seconds) => {
                 self.waits = Some(later(seconds, now));
@@ -226,6 +288,28 @@ enum Memory {
     Flash,
 }
 
+/// The dial in a line.
+fn turned(dial: &Dial) -> String {
+    let end = match dial.end {
+        0 => "",
+        1.. => ", beyond the upper end",
+        ..0 => ", beyond the lower end",
+    };
+    let kept = match dial.kept {
+        1 => "; the kept feel was used",
+        2 => "; a kept feel is damaged or beyond this device's limits: set it and keep it again, or forget it",
+        _ => "",
+    };
+    let degrees = 360.0 * f64::from(dial.turns) + f64::from(dial.angle).to_degrees();
+    format!(
+        "dial at {degrees:.1} degrees, {:.2} rad/s, {:.1} mN·m; detent {}{end}; feel {}{kept}",
+        dial.rate,
+        1e3 * dial.torque,
+        dial.detent,
+        dial.feel,
+    )
+}
+
 /// A view in a line.
 fn said(view: &View) -> String {
     let millimetres = |vector: [f32; 3]| vector.map(|part| format!("{:.2}", part * 1e3)).join(" ");
@@ -266,12 +350,29 @@ const WAIT: Duration = Duration::from_micros(200);
 const MIDDLE: [f64; 3] = [0.03, 0.02, 0.015];
 const ABOVE: [f64; 3] = [0.03, 0.02, 0.045];
 
+/// A finger at a simulated knob.
+pub fn at_knob(knob: &SharedKnob) -> Button {
+    let knob = knob.clone();
+    Box::new(move |press| {
+        let mut world = knob.world();
+        let now = world.dial.time();
+        world.enable = press == Press::Down;
+        // The device asks once it has seen the button released for long enough.
+        world.confirms_at = (press == Press::Confirm).then_some(now + 0.3);
+    })
+}
+
+/// The world at its pins.
+enum World {
+    Arm(Box<Plant>, Hand),
+    Knob(SharedKnob),
+}
+
 /// A line to an emulated board.
 pub struct Emulated {
     pins: Emulator,
     port: TcpStream,
-    plant: Plant,
-    hand: Hand,
+    world: World,
     tick: u32,
     began: Instant,
     /// Its image, which the emulator may still be reading.
@@ -284,24 +385,58 @@ impl Emulated {
     /// # Errors
     /// A missing tool, or an emulator that does not start.
     pub fn start(board: Board) -> anyhow::Result<Self> {
-        let program = Program::prepare(board, "link", &["link"], &Progress::new())?;
-        let (pins, port) = program.start_with_telemetry()?;
-        port.set_read_timeout(Some(WAIT))?;
         let hand = Hand::at(ABOVE, MIDDLE);
         let path = Box::new(hand.clone());
         let plant = Plant::new(&PlantSettings::wooden_haptics_2016(), HandSettings::default(), path, f64::from(RATE))?;
-        Ok(Self { pins, port, plant, hand, tick: 0, began: Instant::now(), _program: program })
+        Self::run(board, "link", &["link"], World::Arm(Box::new(plant), hand))
     }
 
-    /// The user's hand at it.
-    pub fn hand(&self) -> Hand {
-        self.hand.clone()
+    /// Starts a board with a knob.
+    ///
+    /// # Errors
+    /// As [`Self::start`]'s.
+    pub fn start_knob(board: Board, knob: &SharedKnob) -> anyhow::Result<Self> {
+        Self::run(board, "knob_link", &["knob"], World::Knob(knob.clone()))
+    }
+
+    fn run(board: Board, program: &str, features: &[&str], world: World) -> anyhow::Result<Self> {
+        let program = Program::prepare(board, program, features, &Progress::new())?;
+        let (pins, port) = program.start_with_telemetry()?;
+        port.set_read_timeout(Some(WAIT))?;
+        Ok(Self { pins, port, world, tick: 0, began: Instant::now(), _program: program })
+    }
+
+    /// The user's finger on its enable button.
+    pub fn button(&self) -> Button {
+        match &self.world {
+            World::Arm(_, hand) => {
+                let hand = hand.clone();
+                Box::new(move |press| hand.enables(press == Press::Down))
+            }
+            World::Knob(knob) => at_knob(knob),
+        }
     }
 
     fn tick(&mut self) -> io::Result<()> {
-        let sensors = Sensors { tick: self.tick, counts: self.plant.counts(), enable: self.hand.is_enabling() };
+        let (counts, enable) = match &self.world {
+            World::Arm(plant, hand) => (plant.counts(), hand.is_enabling()),
+            World::Knob(knob) => {
+                let world = knob.world();
+                let supply = (world.dial.supply_volts() * 1e3) as i32;
+                // A sensor that does not answer is one that says what cannot be.
+                ([world.dial.counts().unwrap_or(i32::MIN), 0, supply], world.enable)
+            }
+        };
+        let sensors = Sensors { tick: self.tick, counts, enable };
         let report = self.pins.exchange(&sensors).map_err(io::Error::other)?;
-        self.plant.advance(report.duties);
+        match &mut self.world {
+            World::Arm(plant, _) => plant.advance(report.duties),
+            World::Knob(knob) => {
+                let mut world = knob.world();
+                world.hand();
+                world.dial.advance(widths_of(&report));
+            }
+        }
         self.tick = self.tick.wrapping_add(1);
         Ok(())
     }

@@ -9,5 +9,5 @@ mod asked;
 mod console;
 
 pub use asked::{Asked, Misunderstood};
-pub use console::Emulated;
-pub use console::{Console, Step};
+pub use console::{Button, Console, Press, Step};
+pub use console::{Emulated, at_knob};

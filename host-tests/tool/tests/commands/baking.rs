@@ -77,17 +77,21 @@ fn bake_writes_source_graph_and_bytes() -> Result<(), Box<dyn Error>> {
 fn bake_refuses_a_tick_above_the_limit() -> Result<(), Box<dyn Error>> {
     let directory = tempfile::tempdir()?;
     let out = directory.path().join("plate.rs");
-    let bake = |limit: &str| {
+    let bake = |option: &str, limit: &str| {
         let mut bake = Command::new(env!("CARGO_BIN_EXE_palpate"));
-        bake.args(["bake", "thin_plate", "--table-report", "--tick-limit", limit, "--out"]).arg(&out).output()
+        bake.args(["bake", "thin_plate", "--table-report", option, limit, "--out"]).arg(&out).output()
     };
-    let run = bake("29")?;
+    // Less than a tick without a body takes.
+    let run = bake("--tick-cycles", "4000")?;
+    let text = String::from_utf8_lossy(&run.stderr);
+    assert!((run.status.code(), out.exists()) == (Some(2), false) && text.contains("limit is 4000"), "{text}");
+    let run = bake("--tick-limit", "29")?;
     let text = String::from_utf8_lossy(&run.stderr);
     assert_eq!((run.status.code(), out.exists()), (Some(2), false), "{text}");
     // Three edges end at the corner of a plate. There a tick looks at each of them up to three times, and at one more;
     // before that it takes the bench's four steps, of five evaluations at most.
     assert!(text.contains("30 evaluations") && text.contains("3 edges end") && text.contains("limit is 29"), "{text}");
-    let run = bake("30")?;
+    let run = bake("--tick-limit", "30")?;
     let text = String::from_utf8_lossy(&run.stdout);
     assert!(run.status.code() == Some(0) && text.contains("worst tick             30 evaluations"), "{text}");
     Ok(())

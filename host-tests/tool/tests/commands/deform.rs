@@ -156,3 +156,84 @@ fn bad_modes_and_columns_are_refused_by_name() -> Result<(), Box<dyn Error>> {
     }
     Ok(())
 }
+
+const RUBBER: &str = "youngs_modulus_pa = 2e5\npoissons_ratio = 0.45\ndensity_kg_per_m3 = 1100\ndamping_ratio = 0.1\n";
+
+fn bake(folder: &Path, arguments: &[&str]) -> Result<Output, Box<dyn Error>> {
+    Ok(Command::new(env!("CARGO_BIN_EXE_palpate")).arg("bake").args(arguments).current_dir(folder).output()?)
+}
+
+#[test]
+fn a_material_gives_modes_that_closest_and_the_compiler_take() -> Result<(), Box<dyn Error>> {
+    let directory = tempfile::tempdir()?;
+    let folder = directory.path();
+    fs::write(folder.join("rubber.toml"), RUBBER)?;
+    let run = bake(folder, &["capped_box", "--soft", "rubber.toml", "--held", "bottom", "--out", "grip.rs"])?;
+    let printed = String::from_utf8_lossy(&run.stdout);
+    assert_eq!(run.status.code(), Some(0), "{}", String::from_utf8_lossy(&run.stderr));
+    assert!(
+        printed.contains("frequency Hz") && printed.contains("share held") && printed.contains("budget"),
+        "{printed}"
+    );
+    let modes = folder.join("grip.modes.toml");
+    let rows = "qx,qy,qz,q0,q1,q2,q3\n80,20,10,0,0,0,0\n80,20,10,0.0005,0.0005,0.0005,0.0005\n80,20,10,1,0,0,0\n";
+    let found = self::printed(&closest("capped_box", &modes, rows, "cold")?)?;
+    assert!((found[0].gap - 20.0).abs() < 1e-4 && (found[1].gap - 20.0).abs() > 1e-3);
+    assert!(found[2].status.ends_with("clamped"));
+    let source = fs::read_to_string(folder.join("grip.rs"))?;
+    assert!(source.contains("pub static MODES: [palpate::field::Mode; 4]"));
+    assert!(source.contains("pub const MOTION: [palpate::field::Modal; 4]"));
+    // Those of the foam box that ships.
+    let foam = root("soft/foam.toml");
+    let foam = foam.to_str().ok_or("a path")?;
+    let run = bake(folder, &["capped_box", "--soft", foam, "--held", "bottom", "--modes", "8", "--out", "foam.rs"])?;
+    assert_eq!(run.status.code(), Some(0), "{}", String::from_utf8_lossy(&run.stderr));
+    let source = fs::read_to_string(folder.join("foam.rs"))?;
+    let at = source.find("/// Modes of deformation").ok_or("no modes")?;
+    let shipped = fs::read_to_string(root("../boards/bodies/capped_box_modes.rs"))?;
+    assert!(
+        shipped.ends_with(&source[at..]),
+        "boards/bodies/capped_box_modes.rs has drifted: its first line has the command"
+    );
+    // Modes of one's own are checked, and go on as they are.
+    let run = bake(folder, &["capped_box", "--soft", "grip.modes.toml", "--out", "again.palp"])?;
+    assert_eq!(run.status.code(), Some(0), "{}", String::from_utf8_lossy(&run.stderr));
+    assert_eq!(fs::read(folder.join("again.modes.toml"))?, fs::read(modes)?);
+    Ok(())
+}
+
+#[test]
+fn materials_faces_and_bodies_without_modes_are_refused_by_name() -> Result<(), Box<dyn Error>> {
+    let directory = tempfile::tempdir()?;
+    let folder = directory.path();
+    let with = |line: &str, by: &str| RUBBER.replace(line, by);
+    let modes = fs::read_to_string(modes("capped_box"))?;
+    let frequency = modes.lines().find(|line| line.starts_with("frequency")).unwrap_or_default();
+    let budget = modes.lines().find(|line| line.starts_with("budget")).unwrap_or_default();
+    for (material, arguments, expected) in [
+        (with("2e5", "nan"), &["capped_box"][..], "youngs_modulus_pa is NaN: must be above 0"),
+        (with("0.45", "0.5"), &["capped_box"], "poissons_ratio is 0.5: must be above -1, at most 0.49"),
+        (with("1100", "0"), &["capped_box"], "density_kg_per_m3 is 0: must be above 0"),
+        (with("0.1", "-1.0"), &["capped_box"], "damping_ratio is -1: must be from 0"),
+        (with("youngs_modulus_pa = 2e5\n", ""), &["capped_box"], "missing field `youngs_modulus_pa`"),
+        (with("damping_ratio", "damping"), &["capped_box"], "unknown field `damping`"),
+        (RUBBER.to_owned(), &["capped_box", "--held", "lid"], "--held lid: capped-box has no such face; it has "),
+        (RUBBER.to_owned(), &["capped_box", "--modes", "9"], "--modes 9: a body has 1 to 8"),
+        (RUBBER.to_owned(), &["table1"], "an open body has no volume"),
+        (modes.replacen(frequency, "", 1), &["capped_box"], "mode \"squash\": no frequency: a body that moves"),
+        (modes.replacen(budget, "budget = 0.1", 1), &["capped_box"], "may fold space"),
+    ] {
+        fs::write(folder.join("material.toml"), &material)?;
+        let mut all = arguments.to_vec();
+        all.extend(["--soft", "material.toml"]);
+        let run = bake(folder, &all)?;
+        let message = String::from_utf8_lossy(&run.stderr);
+        assert_eq!(run.status.code(), Some(2), "{expected}: {message}");
+        assert!(message.contains(expected), "{expected:?}: {message}");
+        assert_eq!(fs::read_dir(folder)?.count(), 1, "{expected}");
+    }
+    let run = bake(folder, &["capped_box", "--soft", "nowhere.toml"])?;
+    assert_eq!(run.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&run.stderr).contains("nowhere.toml: cannot be read"));
+    Ok(())
+}

@@ -64,7 +64,7 @@ fn every_byte_of_a_frame_is_documented() {
     };
     with(with_frame::<Sensors>, &["Sensors"]);
     with(with_frame::<Report>, &["Report"]);
-    let told = ["Record", "Hello", "Answer", "View", "Reading", "Calibrated", "Calibrated: refused", "Marked"];
+    let told = ["Record", "Hello", "Answer", "View", "Dial", "Reading", "Calibrated", "Calibrated: refused", "Marked"];
     with(with_frame::<DeviceMessage>, &told);
     let upload_and_calibrate = ["HostMessage: upload", "HostMessage: jog", "HostMessage: calibrate"];
     with(
@@ -72,9 +72,10 @@ fn every_byte_of_a_frame_is_documented() {
         &["HostMessage", "HostMessage: hello", "HostMessage: order", "HostMessage: order, a force"],
     );
     with(with_frame::<HostMessage>, &upload_and_calibrate);
+    with(with_frame::<HostMessage>, &["HostMessage: order, part of a feel", "HostMessage: keep the feel"]);
     with(with_frame::<Request>, &["Request"]);
     with(with_frame::<Finding>, &["Finding: Identity", "Finding: Line", "Finding: Ticks"]);
-    assert_eq!(page.matches("\nFrame: `").count(), 21, "a section that is not compared");
+    assert_eq!(page.matches("\nFrame: `").count(), 24, "a section that is not compared");
     compare(PAGE, &page);
 }
 

@@ -5,8 +5,8 @@ use palpate_tool::firmware::{Board, Transport};
 
 /// Code and tables of the capped box, the loop and its UART: they fit small Cortex-M4F parts. Two of the kilobytes are
 /// the search beside a pole and the watch over contact; one buys that nothing is felt in free air: over sharp edges,
-/// at corners and over hollow faces; the last one that a search ends unseen only where little is left to gain.
-const FLASH: u64 = 52 * 1024;
+/// at corners and over hollow faces; another that a search ends unseen only where little is left to gain. It holds the code of its body's degrees alone.
+const FLASH: u64 = 48 * 1024;
 /// Files of the host in the place of a UART are the emulator's, and take more.
 const WITH_FILES: u64 = FLASH + 2 * 1024;
 /// Variables; the stack comes on top.

@@ -310,6 +310,27 @@ fn torque_and_friction_are_found_to_what_a_weight_and_two_counts_tell() {
 }
 
 #[test]
+fn an_arm_that_is_heavier_or_lighter_than_its_file_is_weighed() {
+    for (shipped, own) in devices() {
+        // Of a Falcon a tenth more is beyond the duty that a jog may give.
+        let times = if shipped.name == "woodenhaptics-2016" { 1.1 } else { 0.9 };
+        let planted = Planted::sound(shipped.plant).with(PlantedFault::Weight(times));
+        let (findings, found) = commission(&own, planted, true, Zero::Jig);
+        println!("{}: {findings:?}", shipped.name);
+        let centre = own.plant.mechanism(0.0).angles([0.0; 3]).expect("within reach");
+        let [before, after] = [&own, &found].map(|device| device.plant.mechanism(0.0).gravity_torques(centre));
+        for (joint, (before, after)) in before.into_iter().zip(after).enumerate() {
+            println!("{:<20} weight {times}: joint {joint} {before:.4} N·m, then {after:.4}", shipped.name);
+            // The torque constant's uncertainty, and steps of the duty.
+            let is_near = (after - times * before).abs() <= 0.05 * before.abs() + 2e-3;
+            assert!(is_near, "{} {times} {joint}: {after} of {before}; {findings:?}", shipped.name);
+        }
+        let has_weight = before.iter().any(|load| load.abs() > 0.05);
+        assert!(!has_weight || findings.iter().any(|finding| finding.contains("holding it takes")), "{findings:?}");
+    }
+}
+
+#[test]
 fn zero_and_ratio_are_found_by_the_stops_too() {
     // Of the others no joint reaches the end of its range while the rest stay where they are.
     for (shipped, own) in devices().filter(|(_, own)| matches!(own.preset, Preset::SerialArm(_))) {
@@ -437,6 +458,7 @@ fn a_fault_to_plant_is_read_from_its_words() {
     assert_eq!(read("encoder-sign:0"), Ok(PlantedFault::EncoderSign(0)));
     assert_eq!(read("zero:1=-0.2"), Ok(PlantedFault::Zero(1, -0.2)));
     assert_eq!(read("motors:1-2"), Ok(PlantedFault::Motors(1, 2)));
+    assert_eq!(read("weight:1.1"), Ok(PlantedFault::Weight(1.1)));
     for wrong in ["", "zero", "zero:1", "zero:3=0.1", "ratio:0=-1", "ratio:0=inf", "motors:1", "encoder-sign:x", "x:0"]
     {
         assert!(read(wrong).is_err(), "{wrong}");

@@ -1,0 +1,58 @@
+//! A knob: its feel, part by part, and its dial.
+
+use crate::stopping::CONFIRMED;
+use crate::{Device, Error, Line, SILENCE, TRIES};
+use palpate::render::FeelPart;
+use palpate::scene::Command;
+use palpate::wire::{Dial, HostMessage};
+use std::time::Duration;
+
+impl<L: Line> Device<L> {
+    /// Sets a part of the knob's feel. The first part that is set changes a copy of the feel that is active; the old
+    /// torque is let go of without a step.
+    ///
+    /// # Errors
+    /// As [`Self::order`].
+    pub fn feel(&mut self, part: FeelPart) -> Result<(), Error> {
+        self.order(Command::Feel(part))
+    }
+
+    /// Stores the feel that was set in the knob's flash, or clears the stored one; used from the next reset on. The
+    /// motor must be off and the enable button released. A person then holds the button for half a second and releases
+    /// it, within half a minute.
+    ///
+    /// # Errors
+    /// As [`Self::order`].
+    pub fn keep_feel(&mut self, keeps: bool) -> Result<(), Error> {
+        self.usable()?;
+        let asked = if keeps { "keep-feel" } else { "forget-feel" };
+        let patience = CONFIRMED / TRIES;
+        let refused = self.ask(asked, (TRIES, patience), |number| HostMessage::KeepFeel { number, keeps })?;
+        refused.map_or(Ok(()), |reason| Err(Error::Refused { asked, reason }))
+    }
+
+    /// The dial: what came newest, [`palpate::wire::DIALS_HZ`] times a second. Without a new one since the last call
+    /// this waits for up to `wait`, and then returns the last one.
+    ///
+    /// # Errors
+    /// As [`Self::view`]; a device that is no knob is silent.
+    pub fn dial(&mut self, wait: Duration) -> Result<Dial, Error> {
+        let (began, dials) = (self.line.now(), self.dials);
+        let wait = if self.dial.is_none() { wait.max(SILENCE) } else { wait };
+        self.drain()?;
+        while self.dials == dials && self.since(began) < wait {
+            self.hear(wait.saturating_sub(self.since(began)))?;
+        }
+        self.usable()?;
+        match self.dial {
+            Some((dial, at)) if self.since(at) <= SILENCE => Ok(dial),
+            Some((_, at)) => Err(Error::Silent { line: self.line.name(), waited: self.since(at) }),
+            None => Err(Error::Silent { line: self.line.name(), waited: self.since(began) }),
+        }
+    }
+
+    /// How many times the knob has told of its dial.
+    pub const fn dials(&self) -> u64 {
+        self.dials
+    }
+}

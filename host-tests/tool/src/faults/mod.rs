@@ -1,0 +1,232 @@
+//! The failures of a device on the bench, each with its detector, the promised time and the loop's reaction. `palpate
+//! faults` plants them in a simulated device; the page `docs/reference/faults.md` is written from these tables.
+
+mod bench;
+mod clock;
+mod hand;
+mod host;
+mod line;
+mod memory;
+mod motor;
+mod sensor;
+mod supply;
+
+pub use bench::{Subject, Touch};
+pub use hand::SINKS;
+
+use palpate::servo::{Fault, ResetReason};
+use std::fmt::Write as _;
+
+/// How a failure shows in the loop.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reaction {
+    /// The motors are off, and this fault is latched.
+    Latched(Fault),
+    /// The motors are off until the cause has gone and enable was released.
+    Hold,
+    /// The program does not start: the motors stay off.
+    NoStart,
+}
+
+/// The loop and the hand in which a failure is planted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Setting {
+    /// The hand presses 4 mm into a wall, and force is rendered.
+    Pressed,
+    /// The same with magnetic sensors.
+    Magnetic,
+    /// The same with a host that must be heard every 50 ms.
+    Linked,
+    /// The same, but a protected loop and a hand 10 mm over the wall, which then comes.
+    Protected,
+    /// The same with the motor of a joint reversed.
+    ReversedMotor(usize),
+    /// The same with the encoder of a joint reversed.
+    ReversedEncoder(usize),
+    /// The same, without a supply reading.
+    NoSupply,
+    /// Before force: after this reset.
+    Reset(ResetReason),
+    /// Before force: the stop button must be tried first.
+    StopUntested,
+    /// Before force: the calibration in flash is damaged.
+    Miscalibrated,
+    /// Before force: the device is homed by absolute sensors in another pose.
+    Misplaced,
+    /// Free air, links 10 % heavier than the loop has them.
+    Heavier,
+}
+
+/// A change of the simulated device before each tick; whether the failure acts in that tick.
+pub type Change = fn(&mut Touch<'_>) -> bool;
+
+/// How the row is shown.
+#[derive(Clone, Copy, Debug)]
+pub enum Shown {
+    /// Planted.
+    Planted(Setting, Change),
+    /// By its test alone: the simulated device has no such part.
+    Tested,
+    /// Not detected, and why; planted, where the simulated device has the part.
+    Gap(&'static str, Option<(Setting, Change)>),
+}
+
+/// Why a device does not show a failure; `None` where it does.
+pub type Except = fn(&Subject) -> Option<&'static str>;
+
+/// A failure.
+#[derive(Clone, Copy, Debug)]
+pub struct Failure {
+    /// The failing part.
+    pub part: &'static str,
+    /// The failure.
+    pub failure: &'static str,
+    /// The detector.
+    pub detected_by: &'static str,
+    /// Promised time until the motors are off, ms.
+    pub within_ms: f64,
+    /// The reaction.
+    pub reaction: Reaction,
+    /// The test that shows it.
+    pub test: &'static str,
+    /// How it is shown here.
+    pub shown: Shown,
+    /// Devices that do not detect it.
+    pub except: Option<(&'static str, Except)>,
+}
+
+const fn row(
+    [part, failure, detected_by, test]: [&'static str; 4],
+    within_ms: f64,
+    reaction: Reaction,
+    shown: Shown,
+) -> Failure {
+    Failure { part, failure, detected_by, within_ms, reaction, test, shown, except: None }
+}
+
+const fn gap(
+    part: &'static str,
+    failure: &'static str,
+    reason: &'static str,
+    planted: Option<(Setting, Change)>,
+) -> Failure {
+    row([part, failure, "", ""], f64::INFINITY, Reaction::Hold, Shown::Gap(reason, planted))
+}
+
+impl Failure {
+    /// The same, but for these devices.
+    const fn but(self, words: &'static str, except: Except) -> Self {
+        Self { except: Some((words, except)), ..self }
+    }
+
+    /// The effect on a device; `None` for a row that only its test shows.
+    pub fn plant(&self, subject: &Subject) -> Option<Found> {
+        match self.shown {
+            Shown::Planted(setting, change) | Shown::Gap(_, Some((setting, change))) => subject.plant(setting, change),
+            Shown::Tested | Shown::Gap(_, None) => None,
+        }
+    }
+
+    /// Why this device need not detect it.
+    pub fn excuse(&self, subject: &Subject) -> Option<&'static str> {
+        self.except.and_then(|(_, except)| except(subject))
+    }
+
+    /// Whether the device did as the row says.
+    pub fn is_as_stated(&self, found: &Found) -> bool {
+        let fault = match self.reaction {
+            Reaction::Latched(fault) => Some(fault),
+            Reaction::Hold | Reaction::NoStart => None,
+        };
+        // Two detectors of an angle that cannot be.
+        let is_same =
+            found.fault == fault || (found.fault, fault) == (Some(Fault::Unreachable), Some(Fault::JointOutOfRange));
+        found.off_ms.is_some_and(|time| time <= self.within_ms) && is_same
+    }
+
+    /// Whether the page calls it detected.
+    pub const fn is_detected(&self) -> bool {
+        !matches!(self.shown, Shown::Gap(..))
+    }
+
+    /// Whether it is planted in a device.
+    pub const fn is_planted(&self) -> bool {
+        matches!(self.shown, Shown::Planted(..) | Shown::Gap(_, Some(_)))
+    }
+}
+
+/// The effect of a planted failure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Found {
+    /// The longest time for which it acted until the motors were off, ms; `None` if they never were.
+    pub off_ms: Option<f64>,
+    /// The latched fault, 100 ms later.
+    pub fault: Option<Fault>,
+    /// Largest motion of the probe until the motors were off, mm.
+    pub motion_mm: f64,
+}
+
+/// Every failure, by part.
+pub fn table() -> impl Iterator<Item = &'static Failure> {
+    [sensor::TABLE, line::TABLE, motor::TABLE, clock::TABLE, supply::TABLE, memory::TABLE, host::TABLE, hand::TABLE]
+        .into_iter()
+        .flatten()
+}
+
+/// The diagnostic coverage: failures of the table that are detected, not weighted by how often they happen.
+pub fn coverage() -> String {
+    let count = |is: fn(&Failure) -> bool| table().filter(|row| is(row)).count();
+    let (all, detected) = (count(|_| true), count(Failure::is_detected));
+    let mut text = format!(
+        "Diagnostic coverage, by count: {detected} of {all} failures detected, {} %; {} planted in a simulated arm.",
+        (100 * detected + all / 2) / all,
+        count(Failure::is_planted)
+    );
+    let mut parts: Vec<&str> = Vec::new();
+    for row in table() {
+        if !parts.contains(&row.part) {
+            parts.push(row.part);
+        }
+    }
+    let each = parts.iter().map(|part| {
+        let rows = || table().filter(|row| row.part == *part);
+        format!("{part} {} of {}", rows().filter(|row| row.is_detected()).count(), rows().count())
+    });
+    let _ = write!(text, " By part: {}.", each.collect::<Vec<_>>().join(", "));
+    text
+}
+
+/// The table as Markdown, and the counted coverage.
+pub fn page() -> String {
+    let mut page =
+        "| part | failure | detected by | within, ms | reaction | shown by |\n|---|---|---|---|---|---|\n".to_owned();
+    for row in table() {
+        let Failure { part, failure, detected_by, within_ms, reaction, test, shown, except } = row;
+        let detected_by = except
+            .map_or_else(|| (*detected_by).to_owned(), |(devices, _)| format!("{detected_by}; **not on** {devices}"));
+        let _ = match (shown, reaction) {
+            (Shown::Gap(reason, _), _) => writeln!(page, "| {part} | {failure} | **not detected**: {reason} | | | |"),
+            (_, Reaction::Latched(fault)) => writeln!(
+                page,
+                "| {part} | {failure} | {detected_by} | {within_ms} | off, [{}: {fault}](../troubleshooting.md#faults) | `{test}` |",
+                fault.code()
+            ),
+            (_, Reaction::Hold) => {
+                writeln!(page, "| {part} | {failure} | {detected_by} | {within_ms} | off, hold | `{test}` |")
+            }
+            (_, Reaction::NoStart) => {
+                writeln!(page, "| {part} | {failure} | {detected_by} | {within_ms} | no start | `{test}` |")
+            }
+        };
+    }
+    let _ = writeln!(
+        page,
+        "\n{}\n\nSink in 2 s of an arm that is let go in the middle of its workspace and weighs 10 % more than its device file says:\n",
+        coverage()
+    );
+    let _ = writeln!(page, "| device | mm |\n|---|---|");
+    for (device, sink) in SINKS {
+        let _ = writeln!(page, "| {device} | {sink} |");
+    }
+    page
+}

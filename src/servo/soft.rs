@@ -1,0 +1,267 @@
+//! A body that deforms as a surface of the loop: its modes move under the push (theory §15).
+
+use super::surface::{BakedTables, Surface, Touched, Tracked};
+use super::{Settings, SettingsError};
+use crate::body::{Soft, SoftError, SoftWitness, TableCursor};
+use crate::field::{MAX_MODES, Modal, ModalStep};
+use crate::math::{Vec3, saturate};
+use crate::render::Penalty;
+use crate::track::{Contact, Controller, Outcome, Probe, Witness};
+
+/// A body that deforms, with the motion of its modes. Constant, in flash.
+///
+/// The push is that of the spring in the middle of the tick, each mode having moved by half of its exact motion, so that
+/// spring and modes together gain no energy that the probe has not spent. Modes rest at their limits.
+///
+/// ```
+/// use palpate::body::{Aligned, Body, BodyBuffer, Edge, Face, Soft};
+/// use palpate::field::{FieldBounds, Modal, Mode, Quadratic};
+/// use palpate::math::{Vec3, vec3};
+/// use palpate::servo::{Settings, SoftBody, Surface, Tracked};
+/// use palpate::track::{Controller, Probe};
+///
+/// # static FILE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/boards/bodies/capped_box.palp")));
+/// # let (mut faces, mut edges) = ([Face::VACANT; 6], [Edge::VACANT; 12]);
+/// # let body = Body::from_bytes(&FILE.0, BodyBuffer { faces: &mut faces, edges: &mut edges })?;
+/// // A box of 60 mm that is squeezed along x.
+/// static SQUEEZE: [Mode; 1] = [Mode {
+///     field: Quadratic { linear: [vec3(16.7, 0.0, 0.0), Vec3::ZERO, Vec3::ZERO], ..Quadratic::ZERO },
+///     bump: None,
+///     limit: 0.006,
+///     bounds: FieldBounds { motion: 1.01, stretch: 16.8, bend: 0.0, twist: 0.0 },
+/// }];
+/// // 500 N/m without inertia: it follows the push at once.
+/// let rubber = Modal { mass_kg: 0.0, damping_n_s_per_m: 0.0, stiffness_n_per_m: 500.0 };
+/// let settings = Settings { rate_hz: 4_000.0, stiffness_n_per_m: 1_000.0, max_force_n: 5.0, ..Settings::DEFAULT };
+/// let soft = SoftBody::new(Soft::new(body, &SQUEEZE).unwrap(), &[rubber], &settings).unwrap();
+/// let mut state = soft.rest();
+/// for tick in 0..400 {
+///     let x = 0.062 - if tick < 200 { 0.000_025 * tick as f32 } else { 0.005 };
+///     soft.follow(&Controller::SecondOrder, &mut state, Probe::at(vec3(x, 0.02, 0.01)), 2.5e-4);
+/// }
+/// // 3 mm of spring and body in series: 1/K + 1/k = 3 mm/N.
+/// assert!((state.push().unwrap() - 1.0).abs() < 0.01);
+/// assert!((state.q()[0] + 0.002).abs() < 2e-5);
+/// # Ok::<(), palpate::body::FileError>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct SoftBody<'a> {
+    soft: Soft<'a>,
+    /// Of each mode.
+    steps: [ModalStep; MAX_MODES],
+    wall: Penalty,
+    period: f32,
+}
+
+/// State of a body that deforms in the loop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SoftContact {
+    track: SoftWitness,
+    /// `q` and its rate, of each mode.
+    modes: [[f32; 2]; MAX_MODES],
+    push: f32,
+    is_too_deep: bool,
+}
+
+impl<'a> SoftBody<'a> {
+    /// A body with a motion for each of its modes, at the rate, stiffness, damping and maximum force of the loop that it
+    /// is for. A loop of another rate gets no force.
+    ///
+    /// # Errors
+    /// A mode that is none or too fast, or another number of motions than of modes; a rate, stiffness, damping or force
+    /// that is no number.
+    pub const fn new(soft: Soft<'a>, motion: &[Modal], settings: &Settings) -> Result<Self, SoftError> {
+        if soft.modes().len() != motion.len() {
+            return Err(SoftError::Motions);
+        }
+        // The device's own limits are the loop's to check.
+        match settings.check(f32::MAX, f32::MAX) {
+            Ok(()) => {}
+            Err(SettingsError::Rate | SettingsError::Stiffness | SettingsError::Damping | SettingsError::MaxForce) => {
+                return Err(SoftError::Settings);
+            }
+            Err(_) => {}
+        }
+        let period = 1.0 / settings.rate_hz;
+        let mut steps = [ModalStep::ZERO; MAX_MODES];
+        let mut index = 0;
+        while index < motion.len() {
+            if !motion[index].is_valid(period) {
+                return Err(SoftError::Motion { mode: index as u8 });
+            }
+            steps[index] = ModalStep::new(&motion[index], period);
+            index += 1;
+        }
+        let wall = Penalty {
+            stiffness_n_per_m: settings.stiffness_n_per_m,
+            damping_n_s_per_m: settings.damping_n_s_per_m,
+            max_force_n: settings.max_force_n,
+        };
+        Ok(Self { soft, steps, wall, period })
+    }
+
+    /// The body and its modes.
+    pub const fn soft(&self) -> &Soft<'a> {
+        &self.soft
+    }
+
+    /// The push of this tick, N, and the motion of the modes under it to the next.
+    #[inline(never)]
+    fn press(&self, state: &mut SoftContact, velocity: Vec3) -> f32 {
+        let witness = &state.track.body;
+        let (normal, depth) = (witness.normal, -witness.gap);
+        let at = self.soft.material_point(&state.track);
+        let mut along = [0.0; MAX_MODES];
+        for (along, mode) in along.iter_mut().zip(self.soft.modes()) {
+            *along = mode.displacement(at).dot(normal);
+        }
+        let Penalty { stiffness_n_per_m: stiffness, damping_n_s_per_m: damping, max_force_n } = self.wall;
+        let rate = damping / self.period;
+        let mut push = 0.0;
+        let mut stopped = [None; MAX_MODES];
+        // A mode that comes to a stop moves as far as the stop and yields no more: each round finds one more, or ends.
+        for _ in 0..=self.soft.modes().len() {
+            let (mut free, mut yielding) = (0.0, 0.0);
+            let each = self.steps.iter().zip(self.soft.modes()).zip(&state.modes).zip(along.iter().zip(&stopped));
+            for (((step, _), [q, v]), (along, stopped)) in each {
+                match stopped {
+                    Some(moved) => free += along * moved,
+                    None => {
+                        free += along * step.free_motion(*q, *v);
+                        yielding += along * along * step.compliance();
+                    }
+                }
+            }
+            // In the middle of the tick the depth is more by half of the surface's motion; the damper has all of it.
+            let spring = stiffness * (depth + 0.5 * free);
+            let damper = rate * free - damping * velocity.dot(normal);
+            let stiff = 1.0 + (0.5 * stiffness + rate) * yielding;
+            push = saturate((spring + damper) / stiff, 0.0, max_force_n);
+            let mut is_settled = true;
+            let each = self.steps.iter().zip(&state.modes).zip(self.soft.modes()).zip(along.iter().zip(&mut stopped));
+            for (((step, [q, v]), mode), (along, stopped)) in each {
+                if stopped.is_none() {
+                    let next = q + (step.free_motion(*q, *v) - step.compliance() * along * push);
+                    let within = saturate(next, -mode.limit, mode.limit);
+                    if within != next {
+                        (*stopped, is_settled) = (Some(within - q), false);
+                    }
+                }
+            }
+            if is_settled {
+                break;
+            }
+        }
+        self.advance(state, along.map(|along| -along * push));
+        push
+    }
+
+    /// A tick of all modes under their forces, N.
+    #[inline]
+    fn advance(&self, state: &mut SoftContact, forces: [f32; MAX_MODES]) {
+        let each = self.steps.iter().zip(self.soft.modes()).zip(&mut state.modes).zip(forces);
+        for (((step, mode), moving), force) in each {
+            *moving = step.advance_within(*moving, force, mode.limit);
+        }
+    }
+}
+
+impl SoftContact {
+    /// `q` of each mode at the next tick, metres.
+    pub fn q(&self) -> [f32; MAX_MODES] {
+        self.modes.map(|[q, _]| q)
+    }
+
+    /// Its rate, m/s.
+    pub fn rates(&self) -> [f32; MAX_MODES] {
+        self.modes.map(|[_, rate]| rate)
+    }
+
+    /// The tracker's state, on the body as it was in this tick.
+    pub const fn track(&self) -> &SoftWitness {
+        &self.track
+    }
+}
+
+impl Surface for SoftBody<'_> {
+    type Witness = SoftContact;
+
+    fn rest(&self) -> SoftContact {
+        SoftContact { track: self.soft.start(), modes: [[0.0; 2]; MAX_MODES], push: 0.0, is_too_deep: false }
+    }
+
+    #[inline]
+    fn follow(&self, controller: &Controller, state: &mut SoftContact, probe: Probe, period: f32) -> Touched {
+        let q = state.q();
+        let step = self.soft.step(controller, &mut state.track, probe, &q, period);
+        state.is_too_deep = step.is_too_deep;
+        let is_rate = (period - self.period).abs() <= 1e-3 * self.period;
+        let is_pressed = state.track.body.contact == Contact::Touching && !step.body.unexplained && is_rate;
+        if is_pressed {
+            state.push = self.press(state, probe.velocity);
+        } else {
+            state.push = 0.0;
+            self.advance(state, [0.0; MAX_MODES]);
+        }
+        Touched {
+            normal: state.track.body.normal,
+            rejected: step.body.outcome == Outcome::Rejected,
+            unexplained: step.body.unexplained,
+        }
+    }
+
+    fn release(&self, state: &mut SoftContact) {
+        state.track.body.forget();
+        state.push = 0.0;
+    }
+
+    #[inline]
+    fn is_too_deep(&self, state: &SoftContact) -> bool {
+        state.is_too_deep
+    }
+}
+
+impl BakedTables for SoftBody<'_> {
+    fn table_word(&self, cursor: TableCursor) -> Option<u32> {
+        self.soft.rest().table_word(cursor)
+    }
+
+    fn table_records(&self) -> u32 {
+        self.soft.rest().table_records()
+    }
+
+    fn baked_crc(&self) -> Option<u32> {
+        self.soft.rest().baked_crc()
+    }
+}
+
+impl Tracked for SoftContact {
+    fn witness(&self) -> &Witness {
+        &self.track.body.witness
+    }
+
+    fn gap(&self) -> f32 {
+        self.track.body.gap
+    }
+
+    fn contact(&self) -> Contact {
+        self.track.body.contact
+    }
+
+    fn feature(&self) -> u16 {
+        self.track.body.feature.code()
+    }
+
+    #[inline]
+    fn push(&self) -> Option<f32> {
+        Some(self.push)
+    }
+
+    fn for_each_word(&self, mut take: impl FnMut(u32)) {
+        self.track.body.for_each_word(&mut take);
+        for number in self.modes.as_flattened() {
+            take(number.to_bits());
+        }
+        take(self.push.to_bits());
+    }
+}
