@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+import re
+from pathlib import Path
+
 import telemetry
 from bench import A_WHILE, Bench
 
 # Ticks after which a silent host is lost: 0.1 s (docs/howto/link.md).
 LOST = 400
-# docs/reference/wire.md, "HostMessage": a hello, and the first group alone switched on.
-HELLO, ORDER = bytes([5, 3]), bytes([6, 1, 4, 0])
+WIRE = Path(__file__).resolve().parents[2] / "docs/reference/wire.md"
+# The page's own frame, whose version is the wire's.
+HELLO = bytes.fromhex(re.search(r"## HostMessage: hello\n.*?Frame: `(.*?)`", WIRE.read_text(), re.DOTALL)[1])
+# The first group alone switched on.
+ORDER = telemetry.framed(bytes([6, 1, 4, 0]))
 
 
 class WithHost(Bench):
@@ -18,8 +24,8 @@ class WithHost(Bench):
         machine = self.while_driving()
         machine.ticks(2 * LOST)
         self.assertTrue(self.drives(machine), "no host was heard yet")
-        for message in (HELLO, ORDER):
-            machine.chip.received += telemetry.framed(message)
+        for frame in (HELLO, ORDER):
+            machine.chip.received += frame
             machine.ticks(A_WHILE)
             self.assertTrue(self.drives(machine))
         machine.ticks(LOST)
