@@ -15,6 +15,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import wirings
+
 FOLDER = Path(__file__).resolve().parent
 ROOT = FOLDER.parent.parent
 TARGET = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
@@ -23,8 +25,7 @@ ENVIRONMENT = ROOT / "target/registers/environment"
 UNICORN = "unicorn>=2.1.4,<2.2"
 # What builds an image of the loop; with more words, that for a host.
 LOOP = ("--body", "capped_box", "build", "--release")
-# Its joints are on other channels than those of their numbers.
-HOST = ("--device", "host-tests/registers/swapped.toml", *LOOP, "--features", "host")
+HOST = (*LOOP, "--features", "host")
 # Each image's board, its file among what is built, and what builds it.
 IMAGES = {
     "stm32g4": ("stm32g4", "stm32g4", LOOP),
@@ -55,14 +56,16 @@ def python() -> Path:
     return found
 
 
-def build(names: list[str], folder: Path, instead: tuple[str, ...] = ()) -> None:
-    """Builds these images into a folder, by other words `instead` of their own; of each the newest, for there is more than
-    one way to a compiler."""
+def build(names: list[str], folder: Path, wiring: int | None = None) -> None:
+    """Builds these images into a folder, those for a host from a device file with this wiring or their own; of each the
+    newest, for there is more than one way to a compiler."""
     tool = [ROOT / os.environ["PALPATE_TOOL"]] if "PALPATE_TOOL" in os.environ else ["cargo", "palpate"]
     folder.mkdir(parents=True, exist_ok=True)
     for name in names:
         board, file_name, words = IMAGES[name]
-        run(*tool, "firmware", "--board", board, *(instead or words), cwd=ROOT)
+        if name in wirings.NUMBERS:
+            words = ("--device", str(wirings.write(name, folder, wiring)), *words)
+        run(*tool, "firmware", "--board", board, *words, cwd=ROOT)
         made = TARGET.glob(f"firmware/*/thumb*/release/{file_name}")
         shutil.copy(max(made, key=lambda file: file.stat().st_mtime), folder / name)
 

@@ -1,5 +1,5 @@
-"""An image built from a device file whose joints are not on the channels of their numbers (`swapped.toml`): a count on
-the channel that the file gives a joint moves that joint, and its torque comes out at the channel that the file says.
+"""An image built from a device file whose joints are not on the channels of their numbers, which lies beside it: a count
+on the channel that the file gives a joint moves that joint, and its torque comes out at the channel that the file says.
 
 What is expected comes of the file and the arm's geometry, by none of the project's code.
 """
@@ -15,9 +15,8 @@ import telemetry
 from bench import A_WHILE, Bench
 from machine import Machine
 
-FILE = Path(os.environ.get("PALPATE_WIRED", Path(__file__).with_name("swapped.toml")))
-DEVICE = tomllib.loads(FILE.read_text())
-JOINTS, ARM = DEVICE["joint"], DEVICE["mechanism"]
+# Whatever the channels.
+ARM = tomllib.loads(Path(__file__).with_name("swapped.toml").read_text())["mechanism"]
 # rad a tick: 8 rad/s at 4 kHz, well below what is taken for a jump.
 SLOW = 0.002
 # s.
@@ -68,10 +67,15 @@ def solved(columns: list[list[float]], wanted: list[float]) -> list[float]:
 class WithWiring(Bench):
     """Wiring."""
 
+    @classmethod
+    def load(cls) -> None:
+        super().load()
+        cls.joints = tomllib.loads((Path(os.environ["PALPATE_IMAGES"]) / f"{cls.NAME}.toml").read_text())["joint"]
+
     def turn(self, machine: Machine, angles: list[float]) -> None:
         """Puts the joints there: the counts at the channels of their encoders, from those of the pose, where all are
         zero."""
-        for joint, angle in zip(JOINTS, angles):
+        for joint, angle in zip(self.joints, angles):
             encoder = joint["encoder"]
             counts = round((angle - encoder.get("zero", 0.0)) / math.tau * encoder["counts"] * encoder["ratio"])
             machine.chip.turn_encoder(encoder["channel"], counts)
@@ -83,7 +87,7 @@ class WithWiring(Bench):
             machine.ticks(1)
 
     def pose(self) -> list[float]:
-        return [joint["encoder"].get("zero", 0.0) for joint in JOINTS]
+        return [joint["encoder"].get("zero", 0.0) for joint in self.joints]
 
     def test_count_at_a_joints_channel_moves_that_joint(self) -> None:
         pose = self.pose()
@@ -121,7 +125,7 @@ class WithWiring(Bench):
             duties = machine.chip.duties()
             if sum(abs(duty) > 0.005 for duty in duties) > 1:
                 break
-            for number, joint in enumerate(JOINTS):
+            for number, joint in enumerate(self.joints):
                 motor = joint["motor"]
                 full = motor["torque_constant"] * motor["current_at_full"] * motor["ratio"]
                 pushed = duties[motor["channel"]] * full / joint["inertia"]
