@@ -79,6 +79,7 @@ impl Located {
 
 impl Search {
     /// A search in the cell of a probe, before its first evaluation.
+    #[inline(always)]
     pub fn new<D: Displacement>(body: &Body<'_, D>, probe: Vec3) -> Self {
         let entry = body.locator.list(body.at_rest(probe));
         Self {
@@ -215,6 +216,7 @@ impl<D: Displacement> Body<'_, D> {
     }
 
     /// A search from the middle of the candidate at an index.
+    #[inline(always)]
     pub(super) fn descending(&self, entry: usize) -> CandidateSearch {
         let candidate = self.candidate(entry);
         // A convex body's lists are short, and no audit follows.
