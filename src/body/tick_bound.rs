@@ -139,7 +139,7 @@ impl<const KINDS: u32> Body<'_, Rigid<KINDS>> {
     /// # Ok::<(), palpate::body::FileError>(())
     /// ```
     pub const fn worst_tick(&self, weights: TickWork) -> WorstTick {
-        self.with_effort_of(self.worst_last(weights), weights)
+        self.with_effort_of(self.worst_last(weights), self.worst_step(weights), weights)
     }
 
     /// The last step of a tick, with contact.
@@ -175,8 +175,8 @@ impl<const KINDS: u32> Body<'_, Rigid<KINDS>> {
     #[must_use]
     pub const fn fitted(mut self, limit: TickLimit) -> Self {
         let weights = self.weights();
-        let last = self.worst_last(weights);
-        while cost::cycles(self.with_effort_of(last, weights).cost) > limit.cycles {
+        let (last, step) = (self.worst_last(weights), self.worst_step(weights));
+        while cost::cycles(self.with_effort_of(last, step, weights).cost) > limit.cycles {
             match self.effort.less() {
                 Some(effort) => self.effort = effort,
                 None => break,
@@ -194,12 +194,13 @@ impl<const KINDS: u32> Body<'_, Rigid<KINDS>> {
     pub(super) fn fitted_with(mut self, limit: TickLimit, pause: &mut dyn FnMut()) -> (Self, WorstTick, u32) {
         let weights = self.weights();
         let (each, weighed) = (self.worst_last_with(TickWork::EACH, pause), self.worst_last_with(weights, pause));
+        let (step_each, step) = (self.worst_step(TickWork::EACH), self.worst_step(weights));
         loop {
             pause();
-            let cycles = cost::cycles(self.with_effort_of(weighed, weights).cost);
+            let cycles = cost::cycles(self.with_effort_of(weighed, step, weights).cost);
             match self.effort.less() {
                 Some(effort) if cycles > limit.cycles => self.effort = effort,
-                _ => return (self, self.with_effort_of(each, TickWork::EACH), cycles),
+                _ => return (self, self.with_effort_of(each, step_each, TickWork::EACH), cycles),
             }
         }
     }
@@ -242,13 +243,13 @@ impl<const KINDS: u32> Body<'_, Rigid<KINDS>> {
         weights
     }
 
-    /// A tick whose last step and contact take `last`, with the steps before it and the search: on a convex body that
-    /// and the tracker take turns.
-    const fn with_effort_of(&self, last: WorstTick, weights: TickWork) -> WorstTick {
+    /// A tick whose last step and contact take `last`, with the steps before it, each at most `step`, and the search: on
+    /// a convex body that and the tracker take turns.
+    const fn with_effort_of(&self, last: WorstTick, step: TickWork, weights: TickWork) -> WorstTick {
         let Effort { steps, candidates } = self.effort;
         // One more on an edge that the last one has reached.
         let before = if steps > 1 { steps as u32 } else { 0 };
-        let before = before * self.worst_step(weights).weighed(weights);
+        let before = before * step.weighed(weights);
         // The point that it hands over is evaluated too.
         let search = TickWork { patches: candidates as u32 + 1, ..NO_WORK }.weighed(weights);
         let tracked = WorstTick { cost: before + last.cost, ..last };

@@ -42,6 +42,8 @@ const _: () = assert!(size_of::<Spoke>() == 16 && size_of::<Body>() == 80);
 
 /// A period at 4 kHz is 3,906 instructions here, fewer than [`Effort::BENCH`] may take.
 pub const EFFORT: Effort = Effort::ONE;
+// The compiler bounds the tick of the body, which takes it a while if that is large.
+#[allow(long_running_const_eval)]
 static SURFACE: tables::Surface = tables::with_effort(EFFORT);
 
 /// How the surface feels.

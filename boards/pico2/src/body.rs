@@ -44,6 +44,8 @@ mod tables {
 /// --table-report` bounds the tick of a body.
 pub const EFFORT: Effort = Effort::BENCH;
 #[cfg(not(feature = "host"))]
+// The compiler bounds the tick of the body, which takes it a while if that is large.
+#[allow(long_running_const_eval)]
 static SURFACE: tables::Surface = tables::with_effort(EFFORT);
 
 #[cfg(not(feature = "host"))]
@@ -56,6 +58,7 @@ palpate_bench::arm!(OneSlot<RamStore> = &SCENE, own, SETTINGS, SAFETY);
 static STORE: RamStore = RamStore::with_effort(EFFORT);
 /// With code for every kind of patch, as a host's body may have any. One patch alone is no body: choose a model of one.
 #[cfg(feature = "host")]
+#[allow(long_running_const_eval)]
 static BUILT_IN: Body = tables::BODY.with_effort(EFFORT).fitted(TickLimit::BENCH);
 #[cfg(feature = "host")]
 static SLOT: Slot<RamStore> = Slot::exchangeable(&BUILT_IN, &STORE);

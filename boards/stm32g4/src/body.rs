@@ -36,6 +36,8 @@ pub mod tables {
 /// --table-report` bounds the tick of a body.
 pub const EFFORT: Effort = Effort::BENCH;
 #[cfg(not(feature = "host"))]
+// The compiler bounds the tick of the body, which takes it a while if that is large.
+#[allow(long_running_const_eval)]
 static SURFACE: tables::Surface = tables::with_effort(EFFORT);
 
 #[cfg(not(feature = "host"))]

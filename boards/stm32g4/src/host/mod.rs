@@ -34,6 +34,7 @@ type Store = Kept<FACES, EDGES>;
 static STORE: Store = Kept::with_effort(unsafe { Region::new(START as *const u32, BODY_BYTES) }, EFFORT);
 
 /// With code for every kind of patch, as a host's body may have any. One patch alone is no body: choose a model of one.
+#[allow(long_running_const_eval)]
 static BUILT_IN: Body = tables::BODY.with_effort(EFFORT).fitted(TickLimit::BENCH);
 static SLOT: Slot<Store> = Slot::exchangeable(&BUILT_IN, &STORE);
 static SCENE: OneSlot<Store> = one_slot(&SLOT, &DEVICE, &SETTINGS);
