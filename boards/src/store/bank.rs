@@ -2,7 +2,7 @@
 
 use core::cell::UnsafeCell;
 use core::sync::atomic::{AtomicU32, Ordering};
-use palpate::body::{Body, BodyBuffer, Edge, Effort, Face, FileError, TickLimit};
+use palpate::body::{Body, BodyBuffer, Edge, Effort, Face, FileError, Side, TickLimit};
 
 /// The holder of a bank.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,6 +37,12 @@ impl<const FACES: usize, const EDGES: usize> Built<FACES, EDGES> {
         self.body = None;
         self.faces.fill(Face::VACANT);
         self.edges.fill(Edge::VACANT);
+    }
+
+    /// No face of a body has four poles, no edge the degree 0.
+    fn is_vacant(&self) -> bool {
+        let has_poles = |face: &Face<'_>| face.sides.iter().all(|side| matches!(side, Side::Pole { .. }));
+        self.body.is_none() && self.faces.iter().all(has_poles) && self.edges.iter().all(|edge| edge.curve.degree == 0)
     }
 }
 
@@ -80,6 +86,15 @@ impl<const FACES: usize, const EDGES: usize> Bank<FACES, EDGES> {
             unsafe { (*self.built.get()).clear() };
         }
         is_mains
+    }
+
+    /// Whether no reference of a body is left in it. `false` while it is not main's.
+    ///
+    /// # Safety
+    /// As [`Self::reclaim`].
+    pub unsafe fn is_vacant(&self) -> bool {
+        // SAFETY: main holds the bank where it is looked at, and is here once, as the caller says.
+        self.is_mains() && unsafe { &*self.built.get() }.is_vacant()
     }
 
     /// Checks a file; its body waits to be taken from then on. `pause` is called meanwhile.

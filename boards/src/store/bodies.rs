@@ -91,6 +91,13 @@ impl<const WORDS: usize, const FACES: usize, const EDGES: usize> Writing<WORDS, 
         true
     }
 
+    /// Whether no reference to its file is left in a bank, for tests. `false` while it is not main's.
+    #[doc(hidden)]
+    pub fn is_vacant(&self, bank: u8) -> bool {
+        // SAFETY: this is main's end, which is there once; the feeding of a watchdog does not come here.
+        self.bodies.banks.get(usize::from(bank)).is_some_and(|bank| unsafe { bank.is_vacant() })
+    }
+
     /// Checks the file of a bank.
     fn check(&self, bank: usize, bytes: u32, pause: &mut dyn FnMut()) -> Result<(), UploadError> {
         if !self.bodies.banks[bank].is_mains() {

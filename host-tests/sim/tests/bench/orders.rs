@@ -146,6 +146,7 @@ fn a_body_is_written_beside_the_one_that_is_felt_and_never_over_it() {
     let mut spoiled = sphere.clone();
     spoiled[20_000] ^= 1;
     assert_eq!(put(&spoiled), Err(UploadError::NoBody));
+    assert!(writing.is_vacant(1 - first));
     assert_eq!(BODIES.take(), None, "the sphere that nobody took is gone");
     put(&sphere).unwrap();
     assert_eq!(crc(first), Some(felt));
@@ -160,10 +161,15 @@ fn a_body_is_written_beside_the_one_that_is_felt_and_never_over_it() {
     assert_ne!(crc(second), Some(felt));
     assert_eq!(BODIES.take(), Some(first));
 
-    // Parts that do not follow, and files that do not fit.
+    // Nothing refers to the words of a file any more when the next is written over them.
     BODIES.leave(second);
+    assert!(!writing.is_vacant(first), "the tick's");
+    assert!(!writing.is_vacant(second), "until something is to come");
     let parts = parts(&sphere);
     writing.put(&parts[0], &mut || ()).unwrap();
+    assert!(writing.is_vacant(second));
+
+    // Parts that do not follow, and files that do not fit.
     assert_eq!(writing.put(&parts[2], &mut || ()), Err(UploadError::Order { at: 0 }));
     writing.put(&parts[1], &mut || ()).unwrap();
     writing.put(&parts[1], &mut || ()).unwrap();
