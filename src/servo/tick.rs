@@ -265,11 +265,12 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
             passivity.observe(&mut state.drive.energy, state.drive.force, &motion);
         }
         state.drive.fade = self.next_fade(state);
+        let given = state.drive.force;
         state.drive.force = self.force(state, tool, touched.normal, &motion);
         let mut felt = pose.torques(state.drive.force);
         if state.phase == Phase::Running {
             let (angles, rates) = (&state.sensors.angles, &state.sensors.rates);
-            let moving = Motion { angles, rates, velocity, moved, pose: &pose };
+            let moving = Motion { angles, rates, velocity, moved, given, pose: &pose };
             self.guard.limit(&mut state.guard, &moving, &mut state.drive.force, &mut felt)?;
         } else {
             self.guard.force_not_requested(&mut state.guard);

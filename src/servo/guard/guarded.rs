@@ -63,6 +63,12 @@ impl<const JOINTS: usize> Guarded<JOINTS> {
         self.heat.iter().zip(&state.windings).any(|(model, winding)| model.folds(winding.heat))
     }
 
+    /// The smallest share of full scale that a motor may be given.
+    fn bound(&self, state: &GuardState<JOINTS>) -> f32 {
+        let bounds = self.heat.iter().zip(&state.windings).map(|(model, winding)| model.bound(winding.heat));
+        bounds.fold(1.0, |least, bound| if bound < least { bound } else { least })
+    }
+
     /// # Errors
     /// The number that is refused.
     pub(in crate::servo) const fn try_new(
@@ -160,13 +166,15 @@ impl<const JOINTS: usize> Guard<JOINTS> for Guarded<JOINTS> {
             signs.look(&mut state.signs, moving, force, felt)?;
         }
         // In free air a hand may be as fast as it likes.
-        if !state.release.follow(&self.release, *force, moving.moved) {
+        if !state.release.follow(&self.release, *force, moving) {
             return Ok(());
         }
         let turn = state.turn;
         let (Some(rate), Some(most)) = (moving.rates.get(turn), self.max_joint_rates.get(turn)) else { return Ok(()) };
         let is_fast = moving.velocity.length_squared() > self.max_squared_speed || rate.abs() > *most;
-        if is_fast || self.release.is_released(&state.release, &self.inertia, moving) {
+        let is_released = self.release.may_be_released(&state.release)
+            && self.release.is_released(&state.release, self.bound(state), &self.inertia, moving);
+        if is_fast || is_released {
             return Err(Fault::Overspeed);
         }
         Ok(())

@@ -30,6 +30,8 @@ pub struct Motion<'a, const JOINTS: usize> {
     pub velocity: Vec3,
     /// How far the probe moved since the last tick, m.
     pub moved: Vec3,
+    /// The force that the motors gave meanwhile, N.
+    pub given: Vec3,
     /// Where the probe is, and the Jacobian.
     pub pose: &'a ProbePose<JOINTS>,
 }

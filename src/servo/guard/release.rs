@@ -5,6 +5,9 @@
 //! and acts over `F/k`: it leaves the wall with `½ q̇ᵀM q̇ ≥ E − F B v/k`, and the force has done that work on it. A hand
 //! that draws the probe away takes the energy, or brings its own: then the work is not the energy of the motion.
 //!
+//! Motors that are folded back give a share `s` of the maximum force. The wall then holds `s F D − (s F)²/2k ≥ s E`,
+//! and its damping takes `s F B v/k`: both sides shrink by `s`.
+//!
 //! The inertias are those of single joints in the middle of the workspace, where coupling and pose change the energy of
 //! a motion by a third, dry friction takes a tenth and the estimated rates lag: so half is asked for, of either.
 
@@ -34,19 +37,24 @@ pub(super) struct ReleaseWatch {
 /// The work of a force that has not ended long ago.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct ReleaseState {
-    /// Done on the probe since it was deepest, J.
+    /// Done by the motors on the probe since it was deepest, J.
     pub work: f32,
     /// Ticks until it is forgotten.
     pub ticks: u16,
 }
 
 impl ReleaseState {
-    /// Takes a tick's force, N, and motion, m. Returns whether speeds are to be checked: while a contact gives force,
+    /// Takes a tick's force, N, and motion. Returns whether speeds are to be checked: while a contact gives force,
     /// and for a while after.
     #[inline]
-    pub(super) fn follow(&mut self, watch: &ReleaseWatch, force: Vec3, moved: Vec3) -> bool {
+    pub(super) fn follow<const JOINTS: usize>(
+        &mut self,
+        watch: &ReleaseWatch,
+        force: Vec3,
+        moving: &Motion<'_, JOINTS>,
+    ) -> bool {
         if force != Vec3::ZERO {
-            let work = self.work + force.dot(moved);
+            let work = self.work + moving.given.dot(moving.moved);
             *self = Self { work: if work > 0.0 { work } else { 0.0 }, ticks: watch.after };
         } else if self.ticks > 0 {
             self.ticks -= 1;
@@ -74,25 +82,31 @@ impl ReleaseWatch {
         Self { energy, loss: full * wall.damping_n_s_per_m, ..self }
     }
 
-    /// Whether the work of the wall is in the motion of joints of these inertias, kg·m².
+    /// Whether the work is worth a look at the motion.
+    #[inline]
+    pub(super) fn may_be_released(&self, state: &ReleaseState) -> bool {
+        state.work >= WORTH * self.energy
+    }
+
+    /// Whether the work of the wall is in the motion of joints of these inertias, kg·m², where the motors may give a
+    /// `share` of full scale.
     #[inline]
     pub(super) fn is_released<const JOINTS: usize>(
         &self,
         state: &ReleaseState,
+        share: f32,
         inertia: &[f32; JOINTS],
         moving: &Motion<'_, JOINTS>,
     ) -> bool {
-        if state.work < WORTH * self.energy {
-            return false;
-        }
         let mut twice = 0.0;
         for (inertia, rate) in inertia.iter().zip(moving.rates) {
             twice += inertia * rate * rate;
         }
         let motion = 0.5 * twice;
         // `motion + loss · speed ≥ half of the energy`, squared: no root in the tick.
-        let missing = SHARE * self.energy - motion;
-        let is_enough = missing <= 0.0 || self.loss * self.loss * moving.velocity.length_squared() >= missing * missing;
+        let (energy, loss) = (share * self.energy, share * self.loss);
+        let missing = SHARE * energy - motion;
+        let is_enough = missing <= 0.0 || loss * loss * moving.velocity.length_squared() >= missing * missing;
         is_enough && state.work >= SHARE * motion
     }
 }
