@@ -312,8 +312,13 @@ pub enum SafeOutput {
 /// which it does not turn. Below friction no hand is needed for that, so a smaller torque counts as no load.
 ///
 /// The way is counted in straight pieces of a sixth of `travel_m`, forth or back, so that a small workspace has it too
-/// and a count that flickers adds nothing. Without load the count pauses. A device with one joint has no others: this
-/// check never trips there. The probe and the joints take turns, one per tick.
+/// and a count that flickers adds nothing. It takes the time of 40 mm/s at least, or 2 s: 0.75 s for 30 mm. Without load
+/// the count pauses. A device with one joint has no others: this check never trips there. The probe and the joints take
+/// turns, one per tick.
+///
+/// A slide along a wall may keep the joint that carries the depth where it is. A person's hand moves it all the same, for
+/// its force varies by some percent within a second. A machine that holds the probe steadier than a count is told from a
+/// stuck sensor by nothing: use `None` for it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct StuckLimits {

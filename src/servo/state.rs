@@ -155,11 +155,13 @@ impl<const JOINTS: usize, W: Tracked, G: Remembered> ServoState<JOINTS, W, G> {
         hash.floats(self.sensors.angles);
         hash.floats(self.sensors.rates);
         hash.floats(self.sensors.lags);
-        hash.words([u32::from(self.sensors.stillness.turn) | u32::from(self.sensors.stillness.due) << 8]);
-        for (pieces, Counts(count)) in self.sensors.stillness.pieces.into_iter().zip(self.sensors.stillness.counts) {
-            hash.words([pieces.into(), count as u32]);
+        let stillness = &self.sensors.stillness;
+        hash.words([u32::from(stillness.turn) | u32::from(stillness.due) << 8]);
+        let joints = stillness.pieces.into_iter().zip(stillness.since).zip(stillness.counts);
+        for ((pieces, since), Counts(count)) in joints {
+            hash.words([u32::from(pieces) | u32::from(since) << 8, count as u32]);
         }
-        hash.vectors([self.sensors.stillness.mark]);
+        hash.vectors([stillness.mark]);
         hash.floats([self.drive.margin]);
         hash.vectors([self.contact.probe, self.contact.tool.position, self.contact.tool.velocity]);
         self.contact.witness.for_each_word(|word| hash.words([word]));

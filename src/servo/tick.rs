@@ -277,7 +277,15 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         }
         if let Some(limits) = self.core.safety.stuck
             && !self.guard.withholds_force(&state.guard)
-            && state.sensors.stillness.is_broken(limits, &self.core.device.dry_friction_n_m, &counts, probe, &felt)
+            && state.sensors.stillness.is_broken(
+                limits,
+                // Saturates after years.
+                (state.ticks as f32 * self.core.period * 64.0) as u32 as u8,
+                &self.core.device.dry_friction_n_m,
+                &counts,
+                probe,
+                &felt,
+            )
         {
             return Err(Fault::JointStuck);
         }

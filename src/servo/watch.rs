@@ -217,6 +217,8 @@ pub struct Stillness<const JOINTS: usize> {
     pub due: u8,
     /// How many straight pieces the probe has come since each joint moved by a count, while it carried a load.
     pub pieces: [u8; JOINTS],
+    /// The time of the first of them, s/64.
+    pub since: [u8; JOINTS],
     /// The last count of each joint.
     pub counts: [Counts; JOINTS],
     /// Start of the present piece, m.
@@ -227,19 +229,32 @@ pub struct Stillness<const JOINTS: usize> {
 /// loop sees less of the probe's way where the stuck joint is the one that moves.
 const PIECES: u8 = 6;
 
+/// The minimum time of the travel from its first piece on, s/64 for each metre: that of 40 mm/s. A fast slide is over before
+/// a hand's unsteadiness shows in a joint that geometry keeps still; see [`StuckLimits`].
+const LEAST: f32 = 64.0 / 0.04;
+/// The same of any travel at most: half of the time after which `since` wraps.
+const LONGEST: f32 = 128.0;
+
 impl<const JOINTS: usize> Stillness<JOINTS> {
     /// Before the first tick.
-    pub const START: Self =
-        Self { turn: 0, due: 0, pieces: [0; JOINTS], counts: [Counts(0); JOINTS], mark: Vec3::ZERO };
+    pub const START: Self = Self {
+        turn: 0,
+        due: 0,
+        pieces: [0; JOINTS],
+        since: [0; JOINTS],
+        counts: [Counts(0); JOINTS],
+        mark: Vec3::ZERO,
+    };
 
     /// Checks the probe's way or the next joint, one per tick: whether it has not moved by a count under load while the probe came far.
     ///
     /// `felt` is the torque of the contact force on each joint, N·m, without gravity compensation, which the links'
-    /// weight balances; `friction` is each joint's dry friction. A joint whose friction is not known is not checked.
+    /// weight balances; `friction` is each joint's dry friction; `now` is the time, s/64. A joint whose friction is not known is not checked.
     #[inline]
     pub(super) fn is_broken(
         &mut self,
         limits: StuckLimits,
+        now: u8,
         friction: &[f32; JOINTS],
         counts: &[Counts; JOINTS],
         probe: Vec3,
@@ -260,12 +275,20 @@ impl<const JOINTS: usize> Stillness<JOINTS> {
             self.due -= 1;
             let friction = friction[joint];
             let bears = felt[joint].abs() > limits.load * friction && friction > 0.0;
+            if self.pieces[joint] == 0 {
+                self.since[joint] = now;
+            }
             self.pieces[joint] = self.pieces[joint].saturating_add(u8::from(bears));
         }
         if counts[joint] != self.counts[joint] {
             (self.counts[joint], self.pieces[joint]) = (counts[joint], 0);
         }
-        self.pieces[joint] > PIECES
+        if self.pieces[joint] <= PIECES {
+            return false;
+        }
+        let least = limits.travel_m * LEAST;
+        let least = if least < LONGEST { least } else { LONGEST };
+        f32::from(now.wrapping_sub(self.since[joint])) >= least
     }
 }
 
@@ -312,13 +335,26 @@ mod stuck_tests {
     /// The tick at which it is found, the second joint drawing the probe to and fro over `stroke` m, a third of a
     /// millimetre a tick, and the first as told.
     fn found(first: impl Fn(u32) -> i32, stroke: f32, felt: f32, friction: f32) -> Option<u32> {
+        // 40 mm/s.
+        found_at(120.0, first, stroke, felt, friction)
+    }
+
+    /// At a rate, Hz.
+    fn found_at(rate: f32, first: impl Fn(u32) -> i32, stroke: f32, felt: f32, friction: f32) -> Option<u32> {
         let mut stillness = Stillness::<2>::START;
         let ticks = (stroke * 3_000.0) as u32;
         (1..3_000).find(|tick| {
             let way = if (tick / ticks).is_multiple_of(2) { tick % ticks } else { ticks - tick % ticks };
             let counts = [Counts(first(*tick)), Counts(way as i32)];
             let probe = Vec3::X * (way as f32 / 3_000.0);
-            stillness.is_broken(LIMITS, &[friction; 2], &counts, probe, &[felt; 2])
+            stillness.is_broken(
+                LIMITS,
+                (*tick as f32 / rate * 64.0) as u32 as u8,
+                &[friction; 2],
+                &counts,
+                probe,
+                &[felt; 2],
+            )
         })
     }
 
@@ -336,5 +372,13 @@ mod stuck_tests {
             None,
             "a count now and then is life"
         );
+    }
+
+    #[test]
+    fn a_fast_slide_is_given_the_time_of_one_at_forty_millimetres_a_second() {
+        // Ten times as fast: 60 mm are over in 0.15 s, and count in 1.5 s at least.
+        let alive = |tick: u32| 500 + i32::from(tick % 1_200 < 600);
+        assert_eq!(found_at(1_200.0, alive, 0.045, 0.3, 0.1), None, "a count in half a second is life");
+        assert!(matches!(found_at(1_200.0, |_| 500, 0.045, 0.3, 0.1), Some(1_800..=1_900)));
     }
 }
