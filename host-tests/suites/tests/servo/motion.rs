@@ -223,11 +223,18 @@ fn a_reversed_encoder_gives_no_force_beyond_its_pulses() {
     for joint in 0..3 {
         let script =
             Script { path: slides_x, grip: HandSettings::default(), planted: Planted::Reversed(joint), seconds: 3.0 };
-        for played in on_both(&servo, &PlantSettings::wooden_haptics_2016(), &script, |_| ()) {
-            let most = played.samples.iter().map(|sample| sample.force.length()).fold(0.0, f32::max);
-            println!("{:<7} encoder {joint} reversed: {most:.2} N at most, {:?}", played.plant, played.fault());
-            assert!(most < 0.25 * DEVICE.max_force_n);
+        let played = on_both(&servo, &PlantSettings::wooden_haptics_2016(), &script, |_| ());
+        let most = |played: &Played<()>| played.samples.iter().map(|sample| sample.force.length()).fold(0.0, f32::max);
+        for played in &played {
+            println!(
+                "{:<7} encoder {joint} reversed: {:.2} N at most, {:?}",
+                played.plant,
+                most(played),
+                played.fault()
+            );
+            assert!(most(played) < 0.25 * DEVICE.max_force_n);
         }
+        figures(&format!("encoder {joint} reversed: largest force"), &played, |played| f64::from(most(played)));
     }
 }
 
@@ -245,25 +252,31 @@ fn a_contact_given_up_is_located_within_ten_milliseconds_and_gives_no_force_befo
         [0.0, 0.0, along(&places, time)]
     };
     let script = Script { path, grip: FIRM, planted: Planted::Nothing, seconds: 2.0 };
-    for played in on_both(&servo, &PlantSettings::wooden_haptics_2016(), &script, |state| state.witness().is_located) {
+    let runs = on_both(&servo, &PlantSettings::wooden_haptics_2016(), &script, |state| state.witness().is_located);
+    // Ticks from the end of the contact: located, outside, without force, and with force again.
+    let times = |played: &Played<bool>| {
         let samples = &played.samples;
         let given_up = samples.iter().position(|sample| sample.lost > 0).expect("it is given up");
-        let located = (given_up + 1..).find(|tick| played.looked[*tick]).unwrap();
-        let outside = (given_up..).find(|tick| samples[*tick].contact == Contact::InFront).unwrap();
-        let gone = (given_up..).find(|tick| samples[*tick].force == Vec3::ZERO).unwrap();
-        let forced = (gone..samples.len()).find(|tick| samples[*tick].force != Vec3::ZERO);
-        println!(
-            "{:<7} given up at {:.3} s, {:.1} mm deep, located after {:.2} ms, outside after {:.0} ms, force gone after {:.2} ms and there again after {:?} ms; {:?}",
-            played.plant,
-            samples[given_up].time,
-            -1e3 * samples[given_up - 1].gap,
-            (located - given_up) as f64 / 4.0,
-            (outside - given_up) as f64 / 4.0,
-            (gone - given_up) as f64 / 4.0,
-            forced.map(|tick| (tick - given_up) as f64 / 4.0),
-            played.fault(),
-        );
-        assert!(located - given_up <= 40 && gone - given_up < 120 && forced.is_some_and(|tick| tick > outside));
+        let after = |start: usize, is: &dyn Fn(usize) -> bool| {
+            (start..samples.len()).find(|tick| is(*tick)).map(|tick| tick - given_up).expect("it happens")
+        };
+        let gone = after(given_up, &|tick| samples[tick].force == Vec3::ZERO);
+        [
+            after(given_up + 1, &|tick| played.looked[tick]),
+            after(given_up, &|tick| samples[tick].contact == Contact::InFront),
+            gone,
+            after(given_up + gone, &|tick| samples[tick].force != Vec3::ZERO),
+        ]
+    };
+    for played in &runs {
+        let [located, outside, gone, forced] = times(played);
+        println!("{}: given up, then ticks {located}, {outside}, {gone}, {forced}; {:?}", played.plant, played.fault());
+        assert!(located <= 40 && gone < 120 && forced > outside);
+    }
+    for (index, what) in ["located", "outside", "without force", "with force"].into_iter().enumerate() {
+        figures(&format!("a contact given up at 20 mm: {what} after"), &runs, |played| {
+            times(played)[index] as f64 / 4.0
+        });
     }
 }
 
