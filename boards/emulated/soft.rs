@@ -32,7 +32,7 @@ pub const fn with_effort(effort: palpate::body::Effort) -> Surface {
     let Ok(soft) = palpate::body::Soft::new(rest::BODY.with_effort(effort).fitted(palpate::body::TickLimit::BENCH), deformed::MODES.split_at(COUNT).0) else {
         panic!("modes")
     };
-    let Ok(surface) = palpate::servo::SoftBody::new(soft, deformed::MOTION.split_at(COUNT).0, &super::SETTINGS) else {
+    let Ok(surface) = palpate::servo::SoftBody::new(soft, deformed::MOTION.split_at(COUNT).0, super::SETTINGS.rate_hz) else {
         panic!("motion")
     };
     surface

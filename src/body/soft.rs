@@ -64,8 +64,8 @@ pub enum SoftError {
         /// Its index.
         mode: u8,
     },
-    /// The loop's rate, stiffness, damping or maximum force is no number.
-    Settings,
+    /// The loop's rate is no number or not positive.
+    Rate,
 }
 
 impl fmt::Display for SoftError {
@@ -81,7 +81,7 @@ impl fmt::Display for SoftError {
                 "motions: mode {mode} has a negative or infinite number, no stiffness, or is too fast; leave it out, \
                  or give it no mass"
             ),
-            Self::Settings => write!(formatter, "settings: rate, stiffness, damping or force is no number"),
+            Self::Rate => write!(formatter, "rate: not a positive number of Hz"),
         }
     }
 }

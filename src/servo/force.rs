@@ -62,15 +62,8 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         if S::Witness::HAS_OWN_FORCE_ONLY {
             return Vec3::ZERO;
         }
-        let push = match (state.contact.witness.push(), state.contact()) {
-            (Some(push), _) => push,
-            (None, Contact::Touching) => {
-                let wall =
-                    self.core.eased.map_or(self.core.penalty, |eased| eased.wall(&self.core.penalty, state.gap()));
-                wall.push(state.gap(), tool.velocity.dot(normal))
-            }
-            (None, Contact::Behind | Contact::InFront) => 0.0,
-        };
+        let wall = self.core.eased.map_or(self.core.penalty, |eased| eased.wall(&self.core.penalty, state.gap()));
+        let push = self.core.surface.push(&mut state.contact.witness, &wall, normal, tool.velocity);
         let witness = *state.contact.witness.witness();
         let surface = &witness.surface;
         let Rendering { friction, texture, .. } = &self.core.rendering;

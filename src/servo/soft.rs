@@ -1,7 +1,6 @@
 //! A body that deforms as a surface of the loop: its modes move under the push (theory §15).
 
 use super::surface::{BakedTables, Surface, Touched, Tracked};
-use super::{Settings, SettingsError};
 use crate::body::{Soft, SoftError, SoftWitness, TableCursor};
 use crate::field::{MAX_MODES, Modal, ModalStep};
 use crate::math::{Vec3, saturate};
@@ -10,14 +9,15 @@ use crate::track::{Contact, Controller, Outcome, Probe, Witness};
 
 /// A body that deforms, with the motion of its modes. Constant, in flash.
 ///
-/// The push is that of the spring in the middle of the tick, each mode having moved by half of its exact motion, so that
-/// spring and modes together gain no energy that the probe has not spent. Modes rest at their limits.
+/// The push is that of the loop's spring in the middle of the tick, each mode having moved by half of its exact motion,
+/// so that spring and modes together gain no energy that the probe has not spent. Modes rest at their limits.
 ///
 /// ```
 /// use palpate::body::{Aligned, Body, BodyBuffer, Edge, Face, Soft};
 /// use palpate::field::{FieldBounds, Modal, Mode, Quadratic};
 /// use palpate::math::{Vec3, vec3};
-/// use palpate::servo::{Settings, SoftBody, Surface, Tracked};
+/// use palpate::render::Penalty;
+/// use palpate::servo::{SoftBody, Surface};
 /// use palpate::track::{Controller, Probe};
 ///
 /// # static FILE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/boards/bodies/capped_box.palp")));
@@ -32,15 +32,17 @@ use crate::track::{Contact, Controller, Outcome, Probe, Witness};
 /// }];
 /// // 500 N/m without inertia: it follows the push at once.
 /// let rubber = Modal { mass_kg: 0.0, damping_n_s_per_m: 0.0, stiffness_n_per_m: 500.0 };
-/// let settings = Settings { rate_hz: 4_000.0, stiffness_n_per_m: 1_000.0, max_force_n: 5.0, ..Settings::DEFAULT };
-/// let soft = SoftBody::new(Soft::new(body, &SQUEEZE).unwrap(), &[rubber], &settings).unwrap();
-/// let mut state = soft.rest();
+/// let soft = SoftBody::new(Soft::new(body, &SQUEEZE).unwrap(), &[rubber], 4_000.0).unwrap();
+/// // In a loop, the wall of its settings.
+/// let wall = Penalty { stiffness_n_per_m: 1_000.0, damping_n_s_per_m: 0.0, max_force_n: 5.0 };
+/// let (mut state, mut push) = (soft.rest(), 0.0);
 /// for tick in 0..400 {
 ///     let x = 0.062 - if tick < 200 { 0.000_025 * tick as f32 } else { 0.005 };
-///     soft.follow(&Controller::SecondOrder, &mut state, Probe::at(vec3(x, 0.02, 0.01)), 2.5e-4);
+///     let touched = soft.follow(&Controller::SecondOrder, &mut state, Probe::at(vec3(x, 0.02, 0.01)), 2.5e-4);
+///     push = soft.push(&mut state, &wall, touched.normal, Vec3::ZERO);
 /// }
 /// // 3 mm of spring and body in series: 1/K + 1/k = 3 mm/N.
-/// assert!((state.push().unwrap() - 1.0).abs() < 0.01);
+/// assert!((push - 1.0).abs() < 0.01);
 /// assert!((state.q()[0] + 0.002).abs() < 2e-5);
 /// # Ok::<(), palpate::body::FileError>(())
 /// ```
@@ -49,7 +51,6 @@ pub struct SoftBody<'a> {
     soft: Soft<'a>,
     /// Of each mode.
     steps: [ModalStep; MAX_MODES],
-    wall: Penalty,
     period: f32,
 }
 
@@ -59,30 +60,25 @@ pub struct SoftContact {
     track: SoftWitness,
     /// `q` and its rate, of each mode.
     modes: [[f32; 2]; MAX_MODES],
-    push: f32,
     is_too_deep: bool,
+    /// Whether the loop's rate is that of the modes' motion.
+    is_in_time: bool,
 }
 
 impl<'a> SoftBody<'a> {
-    /// A body with a motion for each of its modes, at the rate, stiffness, damping and maximum force of the loop that it
-    /// is for. A loop of another rate gets no force.
+    /// A body with a motion for each of its modes, for a loop of this rate, Hz. A loop of another rate gets no force.
     ///
     /// # Errors
-    /// A mode that is none or too fast, or another number of motions than of modes; a rate, stiffness, damping or force
-    /// that is no number.
-    pub const fn new(soft: Soft<'a>, motion: &[Modal], settings: &Settings) -> Result<Self, SoftError> {
+    /// A mode that is none or too fast, or another number of motions than of modes; a rate that is no number or not
+    /// positive.
+    pub const fn new(soft: Soft<'a>, motion: &[Modal], rate_hz: f32) -> Result<Self, SoftError> {
         if soft.modes().len() != motion.len() {
             return Err(SoftError::Motions);
         }
-        // The device's own limits are the loop's to check.
-        match settings.check(f32::MAX, f32::MAX) {
-            Ok(()) => {}
-            Err(SettingsError::Rate | SettingsError::Stiffness | SettingsError::Damping | SettingsError::MaxForce) => {
-                return Err(SoftError::Settings);
-            }
-            Err(_) => {}
+        if !(rate_hz.is_finite() && rate_hz > 0.0) {
+            return Err(SoftError::Rate);
         }
-        let period = 1.0 / settings.rate_hz;
+        let period = 1.0 / rate_hz;
         let mut steps = [ModalStep::ZERO; MAX_MODES];
         let mut index = 0;
         while index < motion.len() {
@@ -92,12 +88,7 @@ impl<'a> SoftBody<'a> {
             steps[index] = ModalStep::new(&motion[index], period);
             index += 1;
         }
-        let wall = Penalty {
-            stiffness_n_per_m: settings.stiffness_n_per_m,
-            damping_n_s_per_m: settings.damping_n_s_per_m,
-            max_force_n: settings.max_force_n,
-        };
-        Ok(Self { soft, steps, wall, period })
+        Ok(Self { soft, steps, period })
     }
 
     /// The body and its modes.
@@ -107,7 +98,7 @@ impl<'a> SoftBody<'a> {
 
     /// The push of this tick, N, and the motion of the modes under it to the next.
     #[inline(never)]
-    fn press(&self, state: &mut SoftContact, velocity: Vec3) -> f32 {
+    fn press(&self, state: &mut SoftContact, wall: &Penalty, velocity: Vec3) -> f32 {
         let witness = &state.track.body;
         let (normal, depth) = (witness.normal, -witness.gap);
         let at = self.soft.material_point(&state.track);
@@ -115,7 +106,7 @@ impl<'a> SoftBody<'a> {
         for (along, mode) in along.iter_mut().zip(self.soft.modes()) {
             *along = mode.displacement(at).dot(normal);
         }
-        let Penalty { stiffness_n_per_m: stiffness, damping_n_s_per_m: damping, max_force_n } = self.wall;
+        let Penalty { stiffness_n_per_m: stiffness, damping_n_s_per_m: damping, max_force_n } = *wall;
         let rate = damping / self.period;
         let mut push = 0.0;
         let mut stopped = [None; MAX_MODES];
@@ -187,7 +178,7 @@ impl Surface for SoftBody<'_> {
     type Witness = SoftContact;
 
     fn rest(&self) -> SoftContact {
-        SoftContact { track: self.soft.start(), modes: [[0.0; 2]; MAX_MODES], push: 0.0, is_too_deep: false }
+        SoftContact { track: self.soft.start(), modes: [[0.0; 2]; MAX_MODES], is_too_deep: false, is_in_time: true }
     }
 
     #[inline]
@@ -195,14 +186,7 @@ impl Surface for SoftBody<'_> {
         let q = state.q();
         let step = self.soft.step(controller, &mut state.track, probe, &q, period);
         state.is_too_deep = step.is_too_deep;
-        let is_rate = (period - self.period).abs() <= 1e-3 * self.period;
-        let is_pressed = state.track.body.contact == Contact::Touching && !step.body.unexplained && is_rate;
-        if is_pressed {
-            state.push = self.press(state, probe.velocity);
-        } else {
-            state.push = 0.0;
-            self.advance(state, [0.0; MAX_MODES]);
-        }
+        state.is_in_time = (period - self.period).abs() <= 1e-3 * self.period;
         Touched {
             normal: state.track.body.normal,
             rejected: step.body.outcome == Outcome::Rejected,
@@ -210,9 +194,17 @@ impl Surface for SoftBody<'_> {
         }
     }
 
+    #[inline]
+    fn push(&self, state: &mut SoftContact, wall: &Penalty, _: Vec3, velocity: Vec3) -> f32 {
+        if state.track.body.contact == Contact::Touching && state.is_in_time {
+            return self.press(state, wall, velocity);
+        }
+        self.advance(state, [0.0; MAX_MODES]);
+        0.0
+    }
+
     fn release(&self, state: &mut SoftContact) {
         state.track.body.forget();
-        state.push = 0.0;
     }
 
     #[inline]
@@ -252,16 +244,10 @@ impl Tracked for SoftContact {
         self.track.body.feature.code()
     }
 
-    #[inline]
-    fn push(&self) -> Option<f32> {
-        Some(self.push)
-    }
-
     fn for_each_word(&self, mut take: impl FnMut(u32)) {
         self.track.body.for_each_word(&mut take);
         for number in self.modes.as_flattened() {
             take(number.to_bits());
         }
-        take(self.push.to_bits());
     }
 }

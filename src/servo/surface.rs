@@ -4,6 +4,7 @@ use crate::body::{Body, BodyWitness, Feature, TableCursor};
 use crate::field::Rigid;
 use crate::math::Vec3;
 use crate::patch::{Patch, SplinePatch, crc32, crc32_of, crc32_with};
+use crate::render::Penalty;
 use crate::track::{Contact, Controller, Outcome, Probe, Witness};
 use core::fmt::Debug;
 
@@ -84,6 +85,16 @@ pub trait Surface: BakedTables {
     /// One tick: bounded work, no panic. `period` in seconds.
     fn follow(&self, controller: &Controller, witness: &mut Self::Witness, probe: Probe, period: f32) -> Touched;
 
+    /// The push on a tool of this velocity, N, along the normal that [`Self::follow`] gave, by the loop's wall of this
+    /// tick: called once after each `follow`. By default that of the wall while the surface is touched.
+    #[inline]
+    fn push(&self, witness: &mut Self::Witness, wall: &Penalty, normal: Vec3, velocity: Vec3) -> f32 {
+        match witness.contact() {
+            Contact::Touching => wall.push(witness.gap(), velocity.dot(normal)),
+            Contact::Behind | Contact::InFront => 0.0,
+        }
+    }
+
     /// Releases contact when the tracked point is inconsistent with the probe's motion: the closest point is searched
     /// again, and there is no contact until the probe has been in front.
     fn release(&self, witness: &mut Self::Witness);
@@ -152,12 +163,6 @@ pub trait Tracked: Copy + Debug + PartialEq {
     /// as it treats the force of contact.
     #[inline]
     fn own_force(&self) -> Option<Vec3> {
-        None
-    }
-
-    /// The push along the normal, N, of a surface that moves under it; `None` where the loop's penalty gives it.
-    #[inline]
-    fn push(&self) -> Option<f32> {
         None
     }
 

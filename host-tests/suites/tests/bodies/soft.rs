@@ -7,7 +7,8 @@ use palpate::body::{Body, Feature, Soft, SoftWitness};
 use palpate::field::{MAX_MODES, Modal, ModalStep, Mode};
 use palpate::math::{Vec3, vec3};
 use palpate::patch::Patch as _;
-use palpate::servo::{Settings, SoftBody, SoftContact, Surface as _, Tracked as _};
+use palpate::render::Penalty;
+use palpate::servo::{SoftBody, SoftContact, Surface as _};
 use palpate::track::{Contact, Controller, Probe};
 use palpate_bake::ritz::{Material, Modes};
 use palpate_bake::{BakedBody, Model, modes};
@@ -227,15 +228,9 @@ fn spring(depth: f64) -> f64 {
 
 fn press(body: &'static Body<'static>, moving: &[(Mode, Modal)], law: Law, ticks: u32, slow_only: bool) -> Books {
     let (modes, modals): (Vec<_>, Vec<_>) = moving.iter().copied().unzip();
-    let settings = Settings {
-        rate_hz: 1.0 / PERIOD,
-        stiffness_n_per_m: STIFFNESS,
-        damping_n_s_per_m: 0.0,
-        max_force_n: MAX_FORCE,
-        ..Settings::DEFAULT
-    };
+    let wall = Penalty { stiffness_n_per_m: STIFFNESS, damping_n_s_per_m: 0.0, max_force_n: MAX_FORCE };
     let soft = Soft::new(*body, &modes).unwrap();
-    let surface = SoftBody::new(soft, &modals, &settings).unwrap();
+    let surface = SoftBody::new(soft, &modals, 1.0 / PERIOD).unwrap();
     let steps: Vec<_> = modals.iter().map(|modal| ModalStep::new(modal, PERIOD)).collect();
     let mut presser = Presser::new(body, 7, slow_only);
     let mut books = Books::default();
@@ -261,8 +256,9 @@ fn press(body: &'static Body<'static>, moving: &[(Mode, Modal)], law: Law, ticks
         let (before, after, track, push) = match law {
             Law::MidTick => {
                 let before = both(&contact);
-                surface.follow(&Controller::SecondOrder, &mut contact, target, PERIOD);
-                (before, both(&contact), *contact.track(), contact.push().unwrap())
+                let touched = surface.follow(&Controller::SecondOrder, &mut contact, target, PERIOD);
+                let push = surface.push(&mut contact, &wall, touched.normal, target.velocity);
+                (before, both(&contact), *contact.track(), push)
             }
             Law::Explicit => {
                 let (track, state) = &mut explicit;

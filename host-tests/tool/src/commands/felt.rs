@@ -11,7 +11,7 @@ use palpate::field::{Modal, Mode};
 use palpate::math::Vec3;
 use palpate::patch::{Patch as _, SplinePatch};
 use palpate::scene::Limits;
-use palpate::servo::{Settings, SoftBody};
+use palpate::servo::SoftBody;
 use palpate_bake::source::{Origin, body_source, modes_source, rust_source};
 use palpate_bake::split::Provenance;
 use palpate_bake::{BakedBody, BakedPatch, Model, NurbsPatch, modes};
@@ -67,29 +67,26 @@ impl SoftModes {
         Ok(Self { modes: modes.leak(), motion })
     }
 
-    /// A body with these modes, for a loop of these settings.
+    /// A body with these modes, for a loop of this rate, Hz.
     ///
     /// # Errors
     /// A mode that the library refuses.
-    pub fn on(&self, body: &Body<'static>, settings: &Settings) -> anyhow::Result<&'static SoftBody<'static>> {
+    pub fn on(&self, body: &Body<'static>, rate_hz: f32) -> anyhow::Result<&'static SoftBody<'static>> {
         let soft = Soft::new(*body, self.modes)?;
-        Ok(Box::leak(Box::new(SoftBody::new(soft, &self.motion, settings)?)))
+        Ok(Box::leak(Box::new(SoftBody::new(soft, &self.motion, rate_hz)?)))
     }
 
     /// The source of a body that deforms, from that of the body.
-    fn source(&self, body: &str, settings: &Settings) -> anyhow::Result<String> {
+    fn source(&self, body: &str, rate_hz: f32) -> anyhow::Result<String> {
         let modes: Vec<_> = self.modes.iter().copied().zip(self.motion.iter().copied()).collect();
-        let Settings { rate_hz, stiffness_n_per_m, damping_n_s_per_m, max_force_n, .. } = *settings;
         let modes = modes_source(&modes)?;
         Ok(format!(
             "mod rest {{\n{body}{modes}}}\n#[allow(unused_imports)]\npub use rest::{{CENTRE, TABLE_CRC}};\n\
              /// The type of the surface.\npub type Surface = palpate::servo::SoftBody<'static>;\n\
              /// The body with another effort in each tick.\n\
              pub const fn with_effort(effort: palpate::body::Effort) -> Surface {{\n    \
-             let settings = palpate::servo::Settings {{ rate_hz: {rate_hz:?}, stiffness_n_per_m: {stiffness_n_per_m:?}, \
-             damping_n_s_per_m: {damping_n_s_per_m:?}, max_force_n: {max_force_n:?}, ..palpate::servo::Settings::DEFAULT }};\n    \
              let Ok(soft) = palpate::body::Soft::new(rest::BODY.with_effort(effort).fitted(palpate::body::TickLimit::BENCH), &rest::MODES) else {{ panic!(\"modes\") }};\n    \
-             let Ok(surface) = palpate::servo::SoftBody::new(soft, &rest::MOTION, &settings) else {{ panic!(\"motion\") }};\n    \
+             let Ok(surface) = palpate::servo::SoftBody::new(soft, &rest::MOTION, {rate_hz:?}) else {{ panic!(\"motion\") }};\n    \
              surface\n}}\n"
         ))
     }
@@ -157,17 +154,17 @@ impl Felt {
         }
     }
 
-    /// Its tables as Rust source; a scene's with these limits, a soft body's for a loop of these settings.
+    /// Its tables as Rust source; a scene's with these limits, a soft body's for a loop of this rate, Hz.
     ///
     /// # Errors
     /// A bug of the baker.
-    pub fn source(&self, origin: &Origin<'_>, limits: Limits, settings: &Settings) -> anyhow::Result<String> {
+    pub fn source(&self, origin: &Origin<'_>, limits: Limits, rate_hz: f32) -> anyhow::Result<String> {
         Ok(match self {
             Self::Scene(scene) => scene.source(limits)?,
             Self::Patch { baked, .. } => rust_source(origin, std::slice::from_ref(&**baked))?,
             Self::Body { baked, labels, soft, .. } => {
                 let source = body_source(origin, baked, labels)?;
-                soft.as_ref().map_or(Ok(source.clone()), |soft| soft.source(&source, settings))?
+                soft.as_ref().map_or(Ok(source.clone()), |soft| soft.source(&source, rate_hz))?
             }
         })
     }

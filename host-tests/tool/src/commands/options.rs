@@ -208,7 +208,9 @@ impl Scene {
     fn host_loop_of<K: Kinematics<3>>(&self, device: &'static Device<K, 3>) -> anyhow::Result<Box<dyn Link>> {
         match &self.felt {
             Felt::Patch { patch, .. } => self.host_loop_on(device, *patch),
-            Felt::Body { body, soft: Some(soft), .. } => self.host_loop_on(device, soft.on(body, &self.settings)?),
+            Felt::Body { body, soft: Some(soft), .. } => {
+                self.host_loop_on(device, soft.on(body, self.settings.rate_hz)?)
+            }
             Felt::Body { body, soft: None, .. } => self.host_loop_on(device, *body),
             Felt::Scene(scene) => match scene.count() {
                 1 => self.host_loop_on(device, scene.scene::<1>(self.limits())?),
@@ -297,7 +299,7 @@ impl Scene {
     pub fn source(&self) -> anyhow::Result<String> {
         // What would not compile is said here.
         self.host_loop()?;
-        self.felt.source(&self.origin(), self.limits(), &self.settings)
+        self.felt.source(&self.origin(), self.limits(), self.settings.rate_hz)
     }
 
     /// The model file's name, without its directory.
