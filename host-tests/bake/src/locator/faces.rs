@@ -398,6 +398,11 @@ impl Rectangle {
         }
     }
 
+    /// Whether all of another is in it.
+    pub(super) fn holds(&self, other: &Self) -> bool {
+        (0..2).all(|axis| self.lower[axis] <= other.lower[axis] && other.upper[axis] <= self.upper[axis])
+    }
+
     pub(crate) fn parameters(&self) -> [[f64; 2]; 2] {
         [self.lower, self.upper].map(|corner| corner.map(|step| f64::from(step) / f64::from(GRID)))
     }
@@ -421,6 +426,8 @@ pub(super) struct Starts {
 pub(super) struct Start {
     /// Its rectangle with a step of the grid around it, so that a descent may leave it for a neighbour's minimum.
     pub candidate: Candidate,
+    /// Its rectangle.
+    pub rectangle: Rectangle,
     near: Osculating,
 }
 
@@ -437,8 +444,8 @@ struct TurnedBox {
 }
 
 impl Starts {
-    pub(super) fn new(faces: &Faces, regions: &[Region<'_>]) -> Self {
-        let starts: Vec<_> = regions.iter().map(|region| Start::new(faces, region)).collect();
+    pub(super) fn new<'a>(faces: &Faces, regions: impl Iterator<Item = &'a Region<'a>>) -> Self {
+        let starts: Vec<_> = regions.map(|region| Start::new(faces, region)).collect();
         let mut boxes = Vec::new();
         if !starts.is_empty() {
             TurnedBox::add(&mut boxes, &starts, 0..starts.len());
@@ -446,15 +453,15 @@ impl Starts {
         Self { starts, boxes, last: Cell::new(0) }
     }
 
-    /// Whether any is nearer to a probe than a distance, metres.
-    pub(super) fn any_nearer(&self, distance: f32, probe: Vec3) -> bool {
+    /// One that is nearer to a probe than a distance, metres, if there is any.
+    pub(super) fn any_nearer(&self, distance: f32, probe: Vec3) -> Option<&Start> {
         let is_nearer = |start: &Start| start.near.is_within(distance, probe) && start.near.distance(probe) < distance;
-        if self.starts.get(self.last.get()).is_some_and(is_nearer) {
-            return true;
+        if let Some(last) = self.starts.get(self.last.get()).filter(|start| is_nearer(start)) {
+            return Some(last);
         }
         let nearer = self.about(distance, probe).find(|index| is_nearer(&self.starts[*index]));
         self.last.set(nearer.unwrap_or_default());
-        nearer.is_some()
+        nearer.map(|index| &self.starts[index])
     }
 
     /// Those nearer than a distance, with theirs, the nearest first.
@@ -488,7 +495,8 @@ impl Start {
     fn new(faces: &Faces, region: &Region<'_>) -> Self {
         let face = region.face(faces);
         let rectangle = region.rectangle(faces);
-        let Rectangle { lower, upper } = Rectangle::around(rectangle);
+        let around = Rectangle::around(rectangle);
+        let Rectangle { lower, upper } = around;
         let candidate = Candidate {
             face,
             lower: lower.map(|step| step.saturating_sub(1)),
@@ -501,7 +509,7 @@ impl Start {
             Region::Inside(piece) => piece.near(surface),
             Region::Side { .. } | Region::Vertex(_) => Osculating::new(surface, rectangle),
         };
-        Self { candidate, near }
+        Self { candidate, rectangle: around, near }
     }
 }
 

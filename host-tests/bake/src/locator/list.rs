@@ -38,16 +38,7 @@ pub(super) struct Lister<'a> {
 
 impl Lister<'_> {
     pub(super) fn is_proved(&self, minima: Minima) -> bool {
-        self.is_within(minima, self.tolerance)
-    }
-
-    /// Whether it is proved to lose no more than this, metres.
-    pub(super) fn is_within(&self, minima: Minima, tolerance: f64) -> bool {
-        match minima {
-            Minima::Convex | Minima::One => true,
-            Minima::Within(loss) => loss <= tolerance,
-            Minima::Unknown => false,
-        }
+        minima.is_proved(self.tolerance)
     }
 
     /// The entries of the regions that are left, the likeliest first.

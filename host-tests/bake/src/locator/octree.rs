@@ -221,7 +221,7 @@ impl<'a> Search<'a> {
         if !proved && !self.options.convex {
             lister.add_open_borders(&left, &mut entries);
         }
-        let is_loose = entries.iter().any(|entry| !lister.is_within(entry.minima, LOOSE * self.size));
+        let is_loose = entries.iter().any(|entry| !entry.minima.is_proved(LOOSE * self.size));
         let convex = lister.convex();
         let unproved = (!proved).then_some(Unproved { inherited: Inherited { regions: left, convex }, is_loose });
         Outcome::Leaf(Box::new(Listed { probes, depth, kind, entries, unproved }))
@@ -236,8 +236,8 @@ impl<'a> Search<'a> {
             // Where much could be lost it is looked for harder.
             let count = self.options.samples * if is_loose && kind != Kind::Deep { CLOSER } else { 1 };
             let evaluations = if self.options.convex { MAX_EVALUATIONS_CONVEX } else { MAX_EVALUATIONS };
-            let (tolerance, size) = ((0.2 * self.options.tolerance * self.size) as f32, self.size as f32);
-            let sampling = Sampling { count, evaluations, tolerance, size };
+            let (proved, size) = (self.options.tolerance * self.size, self.size as f32);
+            let sampling = Sampling { count, evaluations, proved, tolerance: (0.2 * proved) as f32, size };
             let mut sampler = Sampler::new(self.faces, probes, &inherited.regions, &entries, sampling);
             for repair in 1..=REPAIRS {
                 let Some(fault) = sampler.fault(&entries) else { break };

@@ -1,16 +1,20 @@
 //! Samples of a list that is not proved: they find where it fails, so that its rectangles are divided there. Where they
 //! find nothing it is sampled, and no more than that.
 //!
+//! Only the entries without a proof are in question: a start in a proved one, whose only minimum the search finds, is
+//! compared with nothing.
+//!
 //! A list is searched with the firmware's own code: in `f32`, by its own steps and with its own bound of them.
 
-use super::faces::Starts;
-use super::faces::{Faces, Region};
+use super::faces::{Faces, Rectangle, Region, Start, Starts};
 use super::list::Entry;
 use super::piece::Probes;
 use super::tables;
 use crate::random::Random;
 use glam::DVec3;
-use palpate::body::{Candidate, CandidateSearch, CandidateStatus, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX};
+use palpate::body::{
+    Candidate, CandidateSearch, CandidateStatus, MAX_EVALUATIONS, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX,
+};
 use palpate::math::Vec3;
 
 /// Starts of descents that a list is compared with, at most.
@@ -21,6 +25,9 @@ const ABOUT: usize = 256;
 const FARTHEST_ABOUT: f64 = 0.5;
 /// The smallest of them.
 const NEAREST_ABOUT: f64 = 1e-3;
+
+/// Entries that the longest search always has evaluations for.
+const REACH: usize = (MAX_EVALUATIONS / MAX_EVALUATIONS_PER_CANDIDATE_CONVEX as u16) as usize;
 
 /// A fault of a list.
 pub(super) enum Fault {
@@ -36,6 +43,8 @@ pub(super) struct Sampling {
     pub count: usize,
     /// Evaluations that a search may cost.
     pub evaluations: u16,
+    /// An entry that is proved to lose no more needs no samples, metres.
+    pub proved: f64,
     /// A list fails if it leads to a point so much farther than another that is found, metres.
     pub tolerance: f32,
     /// Of the body, metres.
@@ -65,14 +74,21 @@ impl<'a> Sampler<'a> {
         probes: Probes,
         regions: &[Region<'_>],
         entries: &[Entry],
-        Sampling { count, evaluations, tolerance, size }: Sampling,
+        Sampling { count, evaluations, proved, tolerance, size }: Sampling,
     ) -> Self {
+        // A longer list may be left before a proved entry has its turn.
+        let all_in_reach = entries.len() <= in_reach(evaluations);
+        let proved: Vec<_> = entries.iter().filter(|entry| all_in_reach && entry.minima.is_proved(proved)).collect();
+        let is_open = |region: &Region<'_>| {
+            let (face, around) = (region.face(faces), Rectangle::around(region.rectangle(faces)));
+            !proved.iter().any(|entry| entry.face == face && entry.rectangle.holds(&around))
+        };
         let mut random = Random::new(7);
         let drawn = (0..count).map(|index| drawn(faces, &probes, entries, index, &mut random)).collect();
         Self {
             faces,
             probes,
-            starts: Starts::new(faces, regions),
+            starts: Starts::new(faces, regions.iter().filter(|region| is_open(region))),
             random,
             drawn,
             next: 0,
@@ -107,27 +123,50 @@ impl<'a> Sampler<'a> {
     /// Why the point that the firmware's search of a list ends with is not the nearest to a probe, as
     /// [`palpate::body::Search`] goes about it.
     fn fault_at(&self, list: &[Candidate], probe: Vec3) -> Option<Fault> {
+        if self.passes(list, probe) {
+            return None;
+        }
         let mut best = f32::INFINITY;
         let mut left = self.evaluations;
         for candidate in list {
-            // The nearest first: where it ends near enough, the others can only end nearer, and it mostly does. So the
-            // starts are asked behind it, for what is nearer still.
             self.descended(candidate, probe, &mut best, &mut left);
-            if !self.starts.any_nearer(distance(best) - self.tolerance, probe) {
-                return None;
-            }
         }
-        let enough = distance(best) - self.tolerance;
+        let point = self.nearer(distance(best) - self.tolerance, probe)?;
+        Some(if left == 0 { Fault::Spent } else { Fault::Nearer(point) })
+    }
+
+    /// Whether a few of a list's entries lead to a point that no start is much nearer than. A search of the whole list
+    /// then ends there or nearer: a candidate is only left early for a nearer point than any in it.
+    ///
+    /// A start that seems nearer names the entry to try next.
+    fn passes(&self, list: &[Candidate], probe: Vec3) -> bool {
+        let list = &list[..list.len().min(in_reach(self.evaluations))];
+        let mut tried = [false; REACH];
+        let mut next = Some(0);
+        let mut best = f32::INFINITY;
+        while let Some(index) = next.filter(|index| !tried[*index]) {
+            tried[index] = true;
+            self.descended(&list[index], probe, &mut best, &mut { u16::MAX });
+            let Some(start) = self.starts.any_nearer(distance(best) - self.tolerance, probe) else { return true };
+            let holds = |entry: &Candidate| {
+                let Candidate { face, lower, upper, .. } = *entry;
+                face == start.candidate.face && Rectangle { lower, upper }.holds(&start.rectangle)
+            };
+            next = list.iter().position(holds);
+        }
+        self.nearer(distance(best) - self.tolerance, probe).is_none()
+    }
+
+    /// A point nearer to a probe than a distance, metres, to which one of the starts leads.
+    fn nearer(&self, enough: f32, probe: Vec3) -> Option<(u16, [f64; 2])> {
         let mut starts = self.starts.nearer(enough, probe);
         // Regions smaller than a step of the grid share their rectangle, and with it the descent.
         starts.dedup_by_key(|(_, start)| start.candidate);
-        let nearer = |candidate: &Candidate| {
+        starts.iter().take(STARTS).find_map(|(_, Start { candidate, .. })| {
             let mut best = f32::INFINITY;
             let parameters = self.descended(candidate, probe, &mut best, &mut { u16::MAX });
             (distance(best) < enough).then_some((candidate.face, parameters.map(f64::from)))
-        };
-        let point = starts.iter().take(STARTS).find_map(|(_, start)| nearer(&start.candidate))?;
-        Some(if left == 0 { Fault::Spent } else { Fault::Nearer(point) })
+        })
     }
 
     /// The parameters at which a descent on a rectangle ends. `best` is the smallest known `½ ‖P − Q‖²`, m², including
@@ -158,6 +197,11 @@ fn drawn(faces: &Faces, probes: &Probes, entries: &[Entry], index: usize, random
         probes.centre + probes.half * place
     });
     probe.as_vec3()
+}
+
+/// Entries at the beginning of a list that a search always has evaluations for.
+fn in_reach(evaluations: u16) -> usize {
+    usize::from(evaluations / u16::from(MAX_EVALUATIONS_PER_CANDIDATE_CONVEX)).min(REACH)
 }
 
 fn distance(half_squared: f32) -> f32 {
@@ -215,4 +259,50 @@ pub(super) fn divide(entries: &mut Vec<Entry>, (face, parameters): (u16, [f64; 2
     entries[index].rectangle.upper[axis] = middle;
     entries.push(upper);
     true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Seams, StoredSurface};
+    use super::*;
+    use crate::locator::unique::Minima;
+    use crate::{Axis, BakedPatch, Model};
+    use palpate::body::GRID;
+    use std::error::Error;
+    use std::path::Path;
+
+    /// Over the middle of one side of a box, where every face is listed: the entry of that side dropped, and cut to a
+    /// corner, beside others that are proved and that are not.
+    #[test]
+    fn a_spoiled_list_is_found() -> Result<(), Box<dyn Error>> {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../models/capped_box.toml");
+        let model = Model::read(&file)?;
+        let patches = model.patches.iter().map(BakedPatch::without_shape).collect::<Result<Vec<_>, _>>()?;
+        let surfaces: Vec<_> = patches.iter().map(StoredSurface::new).collect();
+        let seams = Seams::find(&surfaces, 1e-7);
+        let creases: Vec<_> =
+            model.patches.iter().map(|patch| [Axis::U, Axis::V].map(|axis| patch.creases(axis))).collect();
+        let faces = Faces::new(&patches, seams, &creases, 1.0).ok_or("a weight")?;
+        for near in 0..patches.len() as u16 {
+            let middle = surfaces[usize::from(near)].evaluate([0.5; 2]).point;
+            let around = Probes::cube(middle, 1e-3);
+            let fault = |rectangle: Option<[u8; 2]>, others: Minima| {
+                let entry = |face: u16| {
+                    let upper = if face == near { rectangle? } else { [GRID as u8; 2] };
+                    let minima = if face == near { Minima::Unknown } else { others };
+                    Some(Entry { face, rectangle: Rectangle { lower: [0; 2], upper }, minima, distance: 0.0 })
+                };
+                let entries: Vec<_> = (0..patches.len() as u16).filter_map(entry).collect();
+                let sampling = Sampling { count: 64, evaluations: 512, proved: 0.0, tolerance: 1e-6, size: 0.06 };
+                Sampler::new(&faces, around, &faces.regions(), &entries, sampling).fault(&entries)
+            };
+            for others in [Minima::One, Minima::Unknown] {
+                assert!(fault(Some([GRID as u8; 2]), others).is_none());
+                for spoiled in [None, Some([4; 2])] {
+                    assert!(matches!(fault(spoiled, others), Some(Fault::Nearer((face, _))) if face == near));
+                }
+            }
+        }
+        Ok(())
+    }
 }

@@ -31,6 +31,17 @@ pub(crate) enum Minima {
     Unknown,
 }
 
+impl Minima {
+    /// Whether it is proved to lose no more than this, metres.
+    pub(super) fn is_proved(self, tolerance: f64) -> bool {
+        match self {
+            Self::Convex | Self::One => true,
+            Self::Within(loss) => loss <= tolerance,
+            Self::Unknown => false,
+        }
+    }
+}
+
 /// The proof of the minima on a rectangle wherever the closest point is.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Proof {
