@@ -247,6 +247,8 @@ pub(super) struct Query<'a> {
     pub farthest: f64,
     /// Rectangles of faces on which half the squared distance is known to be convex for all of the probes.
     pub convex: &'a [(u16, Rectangle)],
+    /// Whether rectangles of plane faces may be proved in their plane.
+    pub in_plane: bool,
 }
 
 impl Query<'_> {

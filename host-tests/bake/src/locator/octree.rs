@@ -189,6 +189,8 @@ impl<'a> Search<'a> {
             seam: self.options.seam * self.size,
             farthest: self.farthest,
             convex: &inherited.convex,
+            // Where the depth is used up this saves samples and divisions. Above, cells would end earlier too.
+            in_plane: last,
         };
         let left = self.survivors(&inherited.regions, &query);
         let kind = self.kind(&left, &query);

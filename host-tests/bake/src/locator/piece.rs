@@ -9,7 +9,7 @@
 use super::osculating::Osculating;
 use super::stored::StoredSurface;
 use crate::bernstein::Bernstein;
-use crate::bernstein::Tracked;
+use crate::bernstein::{Tracked, power_of};
 use glam::DVec3;
 use std::ops::Range;
 use std::sync::OnceLock;
@@ -39,6 +39,8 @@ pub(crate) struct Piece {
     pub hessian: Field<12>,
     /// At most `w⁴`.
     pub least_weight: f64,
+    /// At least the curvature of its span in any direction, 1/m; infinite unless the span is plane up to rounding.
+    pub curvature: f64,
     /// A box that holds it, metres.
     pub bounds: [DVec3; 2],
     /// At least the distance between any two of its points, metres.
@@ -76,7 +78,7 @@ impl Piece {
         let one = Tracked::constant(1.0);
         let weight = if is_polynomial { &one } else { weight };
         let times_weight = |entry: &Tracked| if is_polynomial { entry.clone() } else { entry.times(weight) };
-        let first = [0, 1].map(|axis| {
+        let first: [[Tracked; 3]; 2] = [0, 1].map(|axis| {
             points.each_ref().map(|point| {
                 let along = times_weight(&point.derivative(axis));
                 if is_polynomial { along } else { along.plus(-1.0, &point.times(&weight.derivative(axis))) }
@@ -112,6 +114,8 @@ impl Piece {
             let factor = 1.0 / (span.widths[a] * span.widths[b]);
             ([value, x, y, z], factor)
         });
+        let bent = [[0, 0], [0, 1], [1, 1]].map(|[a, b]| second(a, b));
+        let curvature = if is_plane(&points, weight) { curvature(&first, &bent, weight) } else { f64::INFINITY };
         let components: [&Tracked; 12] = std::array::from_fn(|c| &entries[c / 4].0[c % 4]);
         let hessian = Field::new(
             components,
@@ -131,6 +135,7 @@ impl Piece {
             gradient,
             hessian,
             least_weight: 0.0,
+            curvature,
             bounds: [DVec3::ZERO; 2],
             diameter: 0.0,
             quarters: OnceLock::new(),
@@ -186,6 +191,7 @@ impl Piece {
                 gradient: [gradient_u, gradient_v],
                 hessian,
                 least_weight: 0.0,
+                curvature: self.curvature,
                 bounds: [DVec3::ZERO; 2],
                 diameter: 0.0,
                 quarters: OnceLock::new(),
@@ -194,6 +200,60 @@ impl Piece {
         }
         pieces.try_into().unwrap_or_else(|_| unreachable!("four quarters"))
     }
+}
+
+/// How far a point of a plane face may be from the plane, relative to the face: more than the rounding of a table.
+const PLANE: f64 = 1e-5;
+/// The degree up to which the rounding of a product is bounded, see [`Tracked::times`].
+const MAX_DEGREE: usize = 20;
+
+/// Whether a span is plane about as much as `f32` can tell; [`curvature`] bounds how much.
+fn is_plane(points: &[Tracked; 3], weight: &Tracked) -> bool {
+    let degree = [0, 1].map(|axis| points.iter().map(|point| point.polynomial.degree[axis]).max().unwrap_or_default());
+    let coefficients = |component: &Tracked| component.raised(degree).polynomial.coefficients;
+    let [x, y, z, w] = [&points[0], &points[1], &points[2], weight].map(coefficients);
+    let points: Vec<_> = (0..x.len()).map(|at| DVec3::new(x[at][0], y[at][0], z[at][0]) / w[at][0]).collect();
+    let width = degree[1] + 1;
+    let corner = |u: usize, v: usize| points[u * degree[0] * width + v * degree[1]];
+    let normal = (corner(1, 1) - corner(0, 0)).cross(corner(0, 1) - corner(1, 0)).normalize_or_zero();
+    let height = |point: &DVec3| normal.dot(*point - points[0]).abs();
+    let size = points.iter().map(|point| point.distance(points[0])).fold(0.0, f64::max);
+    normal != DVec3::ZERO && points.iter().all(|point| height(point) <= PLANE * size)
+}
+
+/// A bound of the normal curvature of a span in any direction, 1/m; infinite if none is found.
+///
+/// With `N = B_u × B_v` the second fundamental form is `N · C_ij / (|N| w³)`, the first has the determinant `N² / w⁸`,
+/// and no direction bends more than the largest entry of the second times the trace of the first over its determinant.
+fn curvature(first: &[[Tracked; 3]; 2], bent: &[[Tracked; 3]; 3], weight: &Tracked) -> f64 {
+    let [u, v] = first;
+    let normal = [0, 1, 2].map(|c| {
+        let (a, b) = ((c + 1) % 3, (c + 2) % 3);
+        u[a].times(&v[b]).plus(-1.0, &u[b].times(&v[a]))
+    });
+    let degree = |vector: &[Tracked; 3], axis: usize| {
+        vector.iter().map(|component| component.polynomial.degree[axis]).max().unwrap_or_default()
+    };
+    let is_bounded = |bent: &[Tracked; 3]| (0..2).all(|axis| degree(&normal, axis) + degree(bent, axis) <= MAX_DEGREE);
+    if !bent.iter().all(is_bounded) {
+        return f64::INFINITY;
+    }
+    let mean = |component: &Tracked| component.polynomial.coefficients.iter().map(|[value]| value).sum::<f64>();
+    let along = DVec3::from_array(normal.each_ref().map(mean)).normalize_or_zero().to_array();
+    let facing = (0..3).fold(Tracked::constant(0.0), |sum, c| sum.plus(along[c], &normal[c]));
+    let least = |component: &Tracked| {
+        component.polynomial.coefficients.iter().map(|[value]| *value).fold(f64::INFINITY, f64::min) - component.error
+    };
+    let most = |component: &Tracked| component.largest() + component.error;
+    let (length, [light, heavy]) = (least(&facing), [least(weight), most(weight)]);
+    if length <= 0.0 {
+        return f64::INFINITY;
+    }
+    let second = bent.iter().map(|bent| most(&dot(&normal, bent))).fold(0.0, f64::max) / (length * power_of(light, 3));
+    let trace: f64 = first.iter().map(|tangent| most(&dot(tangent, tangent))).sum::<f64>() / power_of(light, 4);
+    let determinant = length * length / power_of(heavy, 8);
+    // Of a symmetric matrix of two rows the largest eigenvalue is at most twice the largest entry; and some rounding.
+    2.0 * second * trace / determinant * (1.0 + 1e-9)
 }
 
 fn dot(a: &[Tracked; 3], b: &[Tracked; 3]) -> Tracked {

@@ -107,7 +107,7 @@ impl Territory {
     }
 
     fn is_unique(&self, probes: Probes) -> bool {
-        let query = Query { probes, references: &[], seam: 0.0, farthest: self.farthest, convex: &[] };
+        let query = Query { probes, references: &[], seam: 0.0, farthest: self.farthest, convex: &[], in_plane: false };
         let rectangle = Rectangle { lower: [0; 2], upper: [GRID as u8; 2] };
         Subject { faces: &self.faces, face: 0, rectangle, query: &query }.is_unique()
     }

@@ -7,6 +7,8 @@
 //!   point is where `φ` has a slope that the rectangle's border holds back in both parameters, or in one with `φ`
 //!   convex along the other, or where `φ` is convex. The basins of strict minima under projected gradient flow are open
 //!   and fill the rectangle, which is connected: there is one.
+//!   Where a face bends less than the farthest probe is away, as a plane one does, `φ` is convex wherever it has no
+//!   slope: the probe is on the normal there. Then only the rectangle's sides are left to prove.
 //! - *Within*: along the segment from any point that no first-order step improves to the best one, `φ` falls by at most
 //!   `½ max(−δᵀHδ)`, `δ` not beyond the rectangle: the error of the distance is at most the returned value.
 //!
@@ -201,8 +203,10 @@ impl Subject<'_> {
             -1 => is_upper(axis) && at[axis] == high[axis],
             _ => false,
         };
+        let is_on_side = |axis: usize| at[axis] == if is_upper(axis) { high[axis] } else { low[axis] };
         let is_flat = |entry: usize| self.query.bends(piece, part).least[entry] <= 0.0;
         match slopes {
+            [0, 0] if self.bends_little(piece) => (0..2).any(|axis| is_on_side(axis) && is_flat(2 * (1 - axis))),
             [0, 0] => !is_positive(&piece.hessian, part, &self.query.probes),
             [_, 0] => is_held(0) && is_flat(2),
             [0, _] => is_held(1) && is_flat(0),
@@ -241,6 +245,27 @@ impl Subject<'_> {
             return self.query.bends(piece, Part::Inside).least[0] > 0.0;
         }
         is_positive(&piece.hessian, Part::Inside, probes)
+            || self.bends_little(piece) && (0..4).all(|side| self.is_strict_on(piece, side))
+    }
+
+    /// Whether a point without slope is a strict minimum wherever it is: the probe then is on the normal, and nearer
+    /// than the centre of any curvature.
+    fn bends_little(&self, piece: &Piece) -> bool {
+        self.query.in_plane && piece.curvature * self.query.farthest < 1.0
+    }
+
+    /// Whether all that a side of the rectangle holds back on a piece is a strict minimum along the side.
+    fn is_strict_on(&self, piece: &Piece, side: usize) -> bool {
+        let (axis, is_upper) = (side / 2, side % 2 == 1);
+        let at = self.rectangle.parameters()[usize::from(is_upper)][axis];
+        if at < piece.low[axis] || piece.high[axis] < at {
+            return true;
+        }
+        let own = if is_upper { piece.high[axis] } else { piece.low[axis] };
+        let part = if own == at { Part::Side(side as u8) } else { Part::Inside };
+        self.query.sign(piece, axis, part) == if is_upper { 1 } else { -1 }
+            || self.query.sign(piece, 1 - axis, part) != 0
+            || self.query.bends(piece, part).least[2 * (1 - axis)] > 0.0
     }
 
     /// Raises a loss to the most that `−δᵀHδ` can be on a piece for `δ` within the rectangle; `None` across a crease.
@@ -368,4 +393,96 @@ pub(super) fn nearest(region: &Region<'_>, query: &Query<'_>, faces: &Faces) -> 
         }
     };
     (distance - query.probes.radius()).max(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Seams, StoredSurface};
+    use super::*;
+    use crate::{BakedPatch, Model};
+    use palpate::body::GRID;
+    use std::error::Error;
+
+    /// A quarter of a plate around a hole of 2 mm, to a side 5 mm from its centre, in a tilted plane; with its middle
+    /// raised, 1 or a little, it is not plane.
+    fn quarter(raised: f64) -> Result<BakedPatch, Box<dyn Error>> {
+        let arc = [[1.414, -1.414], [2.195, -0.633], [2.195, 0.633], [1.414, 1.414]];
+        let point = |[x, y]: [f64; 2], z: f64| format!("[{}, {}, {}]", x, 0.8 * y - 0.6 * z, 0.6 * y + 0.8 * z);
+        let row = |at: usize| {
+            let far = [5.0, -5.0 + 10.0 * at as f64 / 3.0];
+            let z = if at % 3 == 0 { 0.0 } else { raised };
+            format!("[{}, {}]", point(arc[at], z), point(far, z))
+        };
+        let rows: Vec<_> = (0..4).map(row).collect();
+        let text = format!(
+            "name = \"quarter\"\nunit = \"mm\"\n[[patch]]\nname = \"top\"\ndegree = [3, 1]\npoints = [{}]\n",
+            rows.join(", ")
+        );
+        Ok(BakedPatch::without_shape(&Model::parse(&text, "quarter")?.patches[0])?)
+    }
+
+    /// Against descents from a grid of starts: one minimum wherever it is proved, several around the hole's axis.
+    #[test]
+    fn a_plane_face_is_proved_in_its_plane() -> Result<(), Box<dyn Error>> {
+        let patch = quarter(0.0)?;
+        let surface = StoredSurface::new(&patch);
+        let seams = Seams::find(std::slice::from_ref(&surface), 1e-9);
+        let faces = Faces::new(&[patch], seams, &[[Vec::new(), Vec::new()]], 0.1).ok_or("a weight")?;
+        for (x, is_one) in [(3e-3, true), (4e-3, true), (5e-3, true), (0.0, false)] {
+            let probes = Probes::cube(DVec3::new(x, -1.2e-3, 1.6e-3), 1e-3);
+            let is_proved = |in_plane: bool| {
+                let query = Query { probes, references: &[], seam: 0.0, farthest: 0.02, convex: &[], in_plane };
+                let rectangle = Rectangle { lower: [0; 2], upper: [GRID as u8; 2] };
+                let subject = Subject { faces: &faces, face: 0, rectangle, query: &query };
+                matches!(subject.proof(), Proof::Minima(Minima::Convex | Minima::One))
+            };
+            // As any surface it is not.
+            assert_eq!([false, true].map(is_proved), [false, is_one], "{x}");
+            let apart = (0..9).map(|place| {
+                let probe = if place == 8 { probes.centre } else { probes.corner(place) };
+                let ends = (0..81).map(|start| {
+                    let start = [start / 9, start % 9].map(|step| f64::from(step) / 8.0);
+                    surface.descend(probe, start, [[0.0; 2], [1.0; 2]]).point
+                });
+                let ends: Vec<_> = ends.collect();
+                ends.iter().map(|end| end.distance(ends[0])).fold(0.0, f64::max)
+            });
+            let apart = apart.fold(0.0, f64::max);
+            assert_eq!(apart < 1e-6, is_one, "{x}: {apart}");
+        }
+        Ok(())
+    }
+
+    /// A raised patch is no plane; one that is raised by less than the rounding of a table has a bound of its bend,
+    /// which is not less than its larger principal curvature at any point of a grid.
+    #[test]
+    fn only_plane_faces_have_a_bound_of_their_curvature() -> Result<(), Box<dyn Error>> {
+        let bound = |raised: f64| -> Result<[f64; 2], Box<dyn Error>> {
+            let patch = quarter(raised)?;
+            let surface = StoredSurface::new(&patch);
+            let bends = (0..81).map(|at| {
+                let here = surface.evaluate([at / 9, at % 9].map(|step| f64::from(step) / 8.0));
+                let [u, v] = here.first;
+                let normal = u.cross(v).normalize();
+                let ([e, f, g], [l, m, n]) =
+                    ([u.dot(u), u.dot(v), v.dot(v)], here.second.map(|second| second.dot(normal)));
+                let determinant = e * g - f * f;
+                let (mean, product) =
+                    (0.5 * (l * g - 2.0 * m * f + n * e) / determinant, (l * n - m * m) / determinant);
+                mean.abs() + (mean * mean - product).max(0.0).sqrt()
+            });
+            let bend = bends.fold(0.0, f64::max);
+            let seams = Seams::find(&[surface], 1e-9);
+            let faces = Faces::new(&[patch], seams, &[[Vec::new(), Vec::new()]], 0.1).ok_or("a weight")?;
+            Ok([faces.spans[0][0].curvature, bend])
+        };
+        let [plane, _] = bound(0.0)?;
+        let [raised, bend] = bound(5e-5)?;
+        println!("plane {plane:e}, raised {raised:e}, bends {bend:e} 1/m");
+        assert!(plane < 1.0);
+        // Loose by how much the lengths of the tangents differ over the patch.
+        assert!(bend <= raised && raised < 1e3 * bend);
+        assert_eq!(bound(0.1)?[0], f64::INFINITY);
+        Ok(())
+    }
 }
