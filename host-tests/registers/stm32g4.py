@@ -17,8 +17,10 @@ RCC = Block(
 FLASH = Block("FLASH", 0x4002_2000, ACR=0, ECCR=0x18, OPTR=0x20)
 # Bits of ECCR: a word beyond mending, of the second bank.
 ECCD, BK_ECC = 1 << 31, 1 << 21
-# Bits of the option bytes: two banks; start in the second; parity of SRAM is not checked.
-DBANK, BFB2, SRAM_PE = 1 << 22, 1 << 20, 1 << 24
+# Bits of the option bytes: two banks; start in the second; parity of SRAM is not checked; Stop mode resets nothing, and
+# the watchdog goes on in it.
+DBANK, BFB2, SRAM_PE, NRST_STOP, IWDG_STOP = 1 << 22, 1 << 20, 1 << 24, 1 << 12, 1 << 17
+DELIVERED = 0xFFEF_F8AA
 PWR = Block("PWR", 0x4000_7000, CR1=0, CR2=4, CR3=8, SR2=0x14, CR5=0x80)
 GPIO = {
     port: Block(
@@ -102,7 +104,7 @@ class Stm32g4(Chip):
         RCC.APB1ENR1: 0x400,
         FLASH.ACR: 0x4_0600,
         # As the chip is delivered, but of one bank: parity is not checked.
-        FLASH.OPTR: 0xFFEF_F8AA & ~DBANK,
+        FLASH.OPTR: DELIVERED & ~DBANK,
         PWR.CR1: 0x200,
         PWR.CR3: 0x8000,
         PWR.CR5: 0x100,

@@ -15,8 +15,8 @@ from in_set_up import InSetUp
 from nucleo import Nucleo
 from on_stack import OnStack
 from stm32g4 import (
-    ADC1, ADCAL, ADEN, ADVREGEN, CATCHES, CAUGHT, DAMAGE, DBGMCU, FLASH, GPIO, LOCKUP, MOE, OSSI, PARITY, PWR, RCC, SRAM_PE,
-    SUPPLY, TIM1, TIM2, TIM3, TIM4,
+    ADC1, ADCAL, ADEN, ADVREGEN, CATCHES, CAUGHT, DAMAGE, DBGMCU, DELIVERED, FLASH, GPIO, IWDG_STOP, LOCKUP, MOE, NRST_STOP,
+    OSSI, PARITY, PWR, RCC, SRAM_PE, SUPPLY, TIM1, TIM2, TIM3, TIM4,
 )  # fmt: skip
 
 
@@ -121,6 +121,22 @@ class Stm32g4(InSetUp, OnStack, InForce, AtResets, AtStops, unittest.TestCase):
         self.assertTrue(machine.is_masked())
         self.assert_memo(machine, OF_PANIC)
         self.assert_never_high(machine)
+
+    def test_option_bytes_by_which_the_watchdog_stands_still_in_stop_mode_drive_nothing(self) -> None:
+        machine = self.new_machine()
+        machine.reset(power=True)
+        machine.chip.keep(FLASH.OPTR, DELIVERED & ~IWDG_STOP)
+        machine.run(LONG_SET_UP)
+        self.assertTrue(machine.is_masked())
+        self.assertTrue(machine.chip.light())
+        self.assert_memo(machine, OF_PANIC)
+        self.assert_never_high(machine)
+        # Where that mode resets the chip, a watchdog has nothing to do in it.
+        machine = self.new_machine()
+        machine.reset(power=True)
+        machine.chip.keep(FLASH.OPTR, DELIVERED & ~IWDG_STOP & ~NRST_STOP)
+        machine.set_up()
+        self.assertTrue(self.drive_again(machine))
 
     def test_core_that_locks_up_damaged_memory_and_a_falling_supply_end_the_set_points(self) -> None:
         for failure in (LOCKUP, PARITY, SUPPLY, DAMAGE):

@@ -11,7 +11,7 @@ from in_set_up import InSetUp
 from machine import NMI, Machine
 from nucleo import Nucleo
 from on_stack import OnStack
-from stm32g4 import BFB2, BK_ECC, DBANK, ECCD, FLASH
+from stm32g4 import BFB2, BK_ECC, DBANK, DELIVERED, ECCD, FLASH
 from supervised import Supervised
 from with_host import WithHost
 from with_wiring import WithWiring
@@ -33,7 +33,7 @@ class Stm32g4WithHost(WithHost, Supervised, InSetUp, OnStack, AtStops, WithWirin
         machine = self.new_machine()
         machine.unicorn.mem_write(BANK_2, b"\xff" * BANK_SIZE)
         machine.reset(power=True)
-        machine.chip.keep(FLASH.OPTR, DBANK)
+        machine.chip.keep(FLASH.OPTR, DELIVERED)
         if is_damaged:
             hook = machine.unicorn.hook_add(
                 unicorn.UC_HOOK_MEM_READ, lambda uc, *_: uc.emu_stop(), begin=CALIBRATION, end=CALIBRATION + 63
@@ -46,7 +46,7 @@ class Stm32g4WithHost(WithHost, Supervised, InSetUp, OnStack, AtStops, WithWirin
         return machine
 
     def test_chip_that_starts_in_its_second_bank_keeps_nothing_there(self) -> None:
-        for options, reads in ((DBANK, True), (DBANK | BFB2, False), (0, False)):
+        for options, reads in ((DELIVERED, True), (DELIVERED | BFB2, False), (DELIVERED & ~DBANK, False)):
             machine, read = self.new_machine(), []
             machine.unicorn.mem_write(BANK_2, b"\xff" * BANK_SIZE)
             machine.reset(power=True)

@@ -76,6 +76,8 @@ pub struct Identity {
     pub table: u32,
     /// The same as they were baked; 0 where they carry none.
     pub baked: u32,
+    /// The chip's option bytes; 0 of a chip without.
+    pub options: u32,
 }
 
 /// A line's result so far.

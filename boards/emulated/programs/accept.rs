@@ -11,7 +11,7 @@ use cortex_m_rt::entry;
 use palpate::wire::acceptance::Ticks;
 use palpate::wire::telemetry::Queue;
 use palpate_bench::accept::{Acceptance, Chip, Examiner};
-use palpate_bench::{Mailbox, Settings};
+use palpate_bench::{Mailbox, OptionBytes, Settings};
 use palpate_emulated::accepted::{Instructions, NoWatchdog, This, Wired};
 use palpate_emulated::board::BOARD;
 use palpate_emulated::body::SETTINGS;
@@ -36,7 +36,8 @@ fn main() -> ! {
     // SAFETY: a register that is only ever read.
     let core = unsafe { (*CPUID::PTR).base.read() };
     let stopwatch = Instructions::new(&BOARD, peripherals.SYST);
-    let mut examiner = Examiner::new(&This, &settings, Chip { core, reset }, &MAILBOX, ticks, stopwatch);
+    let chip = Chip { core, reset, options: OptionBytes::default() };
+    let mut examiner = Examiner::new(&This, &settings, chip, &MAILBOX, ticks, stopwatch);
     let mut port = Uart::new(&BOARD);
     BOARD.start_timer(SETTINGS.rate_hz);
     // Nothing here can be reset: what would fail goes on.

@@ -7,7 +7,9 @@ use palpate::wire::telemetry::Queue;
 use palpate_bench::cortex::{Below, Cycles, program_check};
 use palpate_bench::sensors::{Angles, Bounded, max_steps};
 use palpate_bench::usb::{Cdc, Either, Plain};
-use palpate_bench::{Cause, ClocksDisagree, CycleDelay, Lines, OneChannel, Parts, Port, ReadBack, Settings, Switched};
+use palpate_bench::{
+    Cause, ClocksDisagree, CycleDelay, Lines, OneChannel, OptionBytes, Parts, Port, ReadBack, Settings, Switched,
+};
 use rp235x_hal::adc::{Adc, AdcPin};
 use rp235x_hal::clocks::{Clock as _, init_clocks_and_plls};
 use rp235x_hal::fugit::RateExtU32;
@@ -124,5 +126,6 @@ pub fn set_up(
         }
         watchdog
     };
-    Below { messages, cycles, reset, port, clocks: move || ring.step(), program: program_check(), start }
+    let options = OptionBytes::default();
+    Below { messages, cycles, reset, options, port, clocks: move || ring.step(), program: program_check(), start }
 }

@@ -3,7 +3,7 @@
 use crate::exercise::Runner;
 use crate::exercise::tally::Tally;
 use crate::outbox::Outbox;
-use crate::{Felt, Mailbox, Port, Settings, Watchdog, heartbeat};
+use crate::{Felt, Mailbox, OptionBytes, Port, Settings, Watchdog, heartbeat};
 use palpate::servo::{BakedTables as _, Heartbeat, ResetReason, TableCheck};
 use palpate::wire::acceptance::{Counted, Failure, Finding, Identity, Line, Request, Ticks};
 use palpate::wire::frame::{Received, Receiver};
@@ -25,6 +25,8 @@ pub struct Chip {
     pub core: u32,
     /// Why it was reset.
     pub reset: ResetReason,
+    /// Its option bytes, if it has any.
+    pub options: OptionBytes,
 }
 
 /// Answers the host's requests, feeds the watchdog while ticks go on.
@@ -60,6 +62,7 @@ impl<'a, W: Stopwatch> Examiner<'a, W> {
             reset: chip.reset as u8,
             table: TableCheck::read(surface),
             baked: surface.baked_crc().unwrap_or(0),
+            options: chip.options.0,
         };
         Self {
             identity,

@@ -2,7 +2,10 @@
 
 use super::{Cycles, HandOver, ProgramCheck, core_id, fail};
 use crate::accept::{Acceptance, Chip, Examiner};
-use crate::{Bench, Board, ClocksDisagree, Felt, Idle, Mailbox, Offers, Passive, Port, Settings, Watchdog, heartbeat};
+use crate::{
+    Bench, Board, ClocksDisagree, Felt, Idle, Mailbox, Offers, OptionBytes, Passive, Port, Settings, Watchdog,
+    heartbeat,
+};
 use palpate::servo::ResetReason;
 use palpate::wire::Record;
 use palpate::wire::acceptance::Ticks;
@@ -84,6 +87,8 @@ pub struct Below<M: 'static, P, K, S> {
     pub cycles: Cycles,
     /// Why the chip was reset.
     pub reset: ResetReason,
+    /// The chip's option bytes, if it has any, for the acceptance.
+    pub options: OptionBytes,
     /// The way to a host.
     pub port: P,
     /// Compares the chip's clocks, a step each turn. If they disagree, the program panics: the motors are off at once.
@@ -124,7 +129,7 @@ impl<P: Port, W: Watchdog, K: FnMut() -> Result<(), ClocksDisagree>, S: FnOnce()
         felt: &impl Felt<JOINTS>,
         settings: &Settings,
     ) -> ! {
-        let chip = Chip { core: core_id(), reset: self.reset };
+        let chip = Chip { core: core_id(), reset: self.reset, options: self.options };
         let mut examiner = Examiner::new(felt, settings, chip, mailbox, self.messages, self.cycles);
         self.program.all();
         let mut watchdog = (self.start)();

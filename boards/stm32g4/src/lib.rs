@@ -10,7 +10,7 @@ pub use ticks::{Clock, Slow, Ticks};
 
 use palpate::servo::ResetReason;
 use palpate_bench::cortex::MemoCell;
-use palpate_bench::{Memo, Port, ResetFlags, WINDOW_MS, Watchdog};
+use palpate_bench::{Memo, OptionBytes, Port, ResetFlags, WINDOW_MS, Watchdog};
 use stm32g4xx_hal::gpio::{AF7, PA2, PA3};
 use stm32g4xx_hal::independent_watchdog::IndependentWatchdog;
 use stm32g4xx_hal::prelude::*;
@@ -32,6 +32,19 @@ const LOOKS: u32 = 1_000_000;
 #[unsafe(link_section = ".uninit.MEMO")]
 #[used]
 pub static MEMO: MemoCell = MemoCell::new();
+
+/// The option bytes.
+pub fn option_bytes(flash: &FLASH) -> OptionBytes {
+    OptionBytes(flash.optr().read().bits())
+}
+
+/// Checks them, before a motor may be driven.
+///
+/// # Panics
+/// If they are refused.
+pub fn accept(options: OptionBytes) {
+    assert!(options.refused().is_none(), "the watchdog would stand still in Stop mode");
+}
 
 /// Sets the clocks, and gives why the chip was reset.
 pub fn start(rcc: RCC, power: PWR, flash: &FLASH) -> (Rcc, ResetReason) {

@@ -8,7 +8,7 @@ use palpate_bench::sensors::{Counters, max_steps};
 use palpate_bench::{
     Cause, ClockCheck, ClocksDisagree, CycleDelay, Lines, Memo, OneChannel, Parts, Port, ReadBack, Settings,
 };
-use palpate_stm32g4::{CLOCK, Clock, Iwdg, MEMO, Slow, Ticks, Volts, converters, open_port, start};
+use palpate_stm32g4::{CLOCK, Clock, Iwdg, MEMO, Slow, Ticks, Volts, converters, open_port, option_bytes, start};
 use stm32g4xx_hal::gpio::{AnyPin, Input};
 use stm32g4xx_hal::prelude::*;
 use stm32g4xx_hal::stm32::{Interrupt, Peripherals};
@@ -44,6 +44,7 @@ pub fn set_up(
         panic!("the peripherals are taken here and nowhere else")
     };
     amplifiers::motors_off();
+    let options = option_bytes(&chip.FLASH);
     let (mut rcc, reset) = start(chip.RCC, chip.PWR, &chip.FLASH);
     let cycles = Cycles::start(&mut core.DCB, core.DWT);
     let clock = Clock::start(chip.TIM5, &chip.DBGMCU, &mut rcc);
@@ -76,6 +77,10 @@ pub fn set_up(
     );
     let drives = amplifiers::amplifiers(outputs, enables, ways, set_points::RANGE, set_points::DWELL);
     let drives = ReadBack::new(set_points::guarded(drives), amplifiers::reads_enabled as fn() -> bool);
+
+    // Once the light can say so. An image that drives nothing reports them.
+    #[cfg(not(feature = "accept"))]
+    palpate_stm32g4::accept(options);
 
     let pins = (
         (a.pa0.into_alternate(), a.pa1.into_alternate(), b.pb10.into_pull_down_input().into_alternate()),
@@ -121,5 +126,14 @@ pub fn set_up(
         }
         watchdog
     };
-    Below { messages, cycles, reset, port, clocks: move || clocks.step(), program: program_check(), start: start_ticks }
+    Below {
+        messages,
+        cycles,
+        reset,
+        options,
+        port,
+        clocks: move || clocks.step(),
+        program: program_check(),
+        start: start_ticks,
+    }
 }

@@ -8,7 +8,8 @@ use palpate_bench::cortex::{Below, Cycles};
 use palpate_bench::sensors::{Angles, Bounded, max_steps};
 use palpate_bench::usb::{Cdc, Either};
 use palpate_bench::{
-    Breakable, Cause, ClockCheck, ClocksDisagree, CycleDelay, Lines, OneChannel, Parts, Port, ReadBack, Settings,
+    Breakable, Cause, ClockCheck, ClocksDisagree, CycleDelay, Lines, OneChannel, OptionBytes, Parts, Port, ReadBack,
+    Settings,
 };
 use teensy4_bsp::Interrupt;
 use teensy4_bsp::board::{self, IPG_FREQUENCY, LpspiPins, lpuart};
@@ -132,5 +133,15 @@ pub fn set_up(
         }
         watchdog
     };
-    Below { messages, cycles, reset, port, clocks: move || clocks.step(), program: chip::program_check(), start }
+    let options = OptionBytes::default();
+    Below {
+        messages,
+        cycles,
+        reset,
+        options,
+        port,
+        clocks: move || clocks.step(),
+        program: chip::program_check(),
+        start,
+    }
 }

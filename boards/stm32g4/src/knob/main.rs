@@ -26,7 +26,9 @@ use palpate_bench::{
     Bench, Cause, Chopped, Chopper, ClockCheck, CurrentWatched, CycleDelay, Idle, Lines, Memo, OneChannel, Parts,
     ReadBack, Settings, heartbeat,
 };
-use palpate_stm32g4::{CLOCK, Clock, Iwdg, MEMO, Slow, Ticks, Volts, converters, open_port, start};
+use palpate_stm32g4::{
+    CLOCK, Clock, Iwdg, MEMO, Slow, Ticks, Volts, accept, converters, open_port, option_bytes, start,
+};
 use stm32g4xx_hal::gpio::{AF5, AnyPin, Input, Output, PA5, PA6, PA7, PB6, PC1, PinState};
 use stm32g4xx_hal::prelude::*;
 use stm32g4xx_hal::stm32::{Interrupt, Peripherals, interrupt};
@@ -65,6 +67,7 @@ fn main() -> ! {
     let (Some(mut core), Some(chip)) = (cortex_m::Peripherals::take(), Peripherals::take()) else {
         panic!("the peripherals are taken here and nowhere else")
     };
+    accept(option_bytes(&chip.FLASH));
     let (mut rcc, reset) = start(chip.RCC, chip.PWR, &chip.FLASH);
     let clock = Clock::start(chip.TIM5, &chip.DBGMCU, &mut rcc);
     let (a, b, c) = (chip.GPIOA.split(&mut rcc), chip.GPIOB.split(&mut rcc), chip.GPIOC.split(&mut rcc));

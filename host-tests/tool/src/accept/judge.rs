@@ -3,6 +3,7 @@
 use super::{Check, ExpectedLine, Found};
 use palpate::servo::ResetReason;
 use palpate::wire::acceptance::{Counted, Failure, Line, Ticks, panel};
+use palpate_bench::OptionBytes;
 
 /// Maximum deviation of a period, as a fraction of it. The servo's interrupt waits only for the running instruction and
 /// for cache misses: 5 µs of 250 are generous.
@@ -42,7 +43,7 @@ const fn core(id: u32) -> Option<(&'static str, [f64; 2])> {
 
 /// Judges what was found by what was to be expected.
 pub fn judge(found: &Found, expected: &[ExpectedLine], around: &Surroundings<'_>) -> Vec<Check> {
-    let mut checks = vec![who(found), reset(found), table(found), state_hash(found, expected)];
+    let mut checks = vec![who(found), reset(found), options(found), table(found), state_hash(found, expected)];
     checks.push(script(found, expected));
     checks.push(cycles(found, expected, around));
     checks.extend(timing(found, around));
@@ -74,6 +75,16 @@ fn reset(found: &Found) -> Check {
     let reason = ResetReason::ALL.into_iter().find(|reason| *reason as u8 == number);
     let holds = reason.is_some_and(|reason| reason.fault().is_none());
     Check::new("reset reason", reset_word(number), "no watchdog, brown-out, panic or exception", holds)
+}
+
+fn options(found: &Found) -> Check {
+    let (options, must) = (OptionBytes(found.identity.options), "a watchdog that goes on in Stop mode");
+    if options == OptionBytes::default() {
+        return Check::not_here("option bytes", "none", must);
+    }
+    let remedy = options.refused().map(|remedy| format!("; set {remedy}, without it the board drives nothing"));
+    let holds = remedy.is_none();
+    Check::new("option bytes", format!("{options}{}", remedy.unwrap_or_default()), must, holds)
 }
 
 fn table(found: &Found) -> Check {

@@ -9,7 +9,7 @@ use palpate::wire::acceptance::{Counted, Failure, Line, Ticks};
 use palpate::wire::telemetry::Queue;
 use palpate_bench::accept::{Acceptance, Chip, Examiner, Stopwatch};
 use palpate_bench::sensors::BadFrame;
-use palpate_bench::{Mailbox, Port, Watchdog};
+use palpate_bench::{Mailbox, OptionBytes, Port, Watchdog};
 use palpate_sim::rig::{
     CLOCK, Made, RATE, SETTINGS, STOPS, Shared, SimulatedBoard, WALL, World, held_at, settings, wired,
 };
@@ -103,7 +103,7 @@ fn start(servo: fn() -> Arm, reset: ResetReason) -> (Shared, Tick, Examiner<'sta
     let (producer, ticks) = queue.split();
     let (world, board) = wired(&servo(), held_at([0.0, 0.0, -0.004]), &settings());
     let felt = Made(servo(), false, Wiring::STRAIGHT);
-    let chip = Chip { core: 0x410f_c241, reset };
+    let chip = Chip { core: 0x410f_c241, reset, options: OptionBytes::DELIVERED };
     let examiner = Examiner::new(&felt, &settings(), chip, mailbox, ticks, Even);
     (world, Acceptance::new(felt, board, &settings(), reset, producer, mailbox), examiner)
 }
@@ -260,6 +260,9 @@ fn a_good_board_is_accepted_by_its_cycles_too() {
     let mut other = found.clone();
     other.lines[2].digest ^= 1;
     assert_eq!(failed(&other, 1_000), ["state hash", "script"]);
+    let mut frozen = found.clone();
+    frozen.identity.options &= !(1 << 17);
+    assert_eq!(failed(&frozen, 1_000), ["option bytes"], "IWDG_STOP: the watchdog stands still in Stop mode");
     let mut short = found;
     short.lines.pop();
     assert_eq!(failed(&short, 1_000), ["state hash", "script"]);
