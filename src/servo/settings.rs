@@ -317,8 +317,8 @@ pub enum SafeOutput {
 /// turns, one per tick.
 ///
 /// A slide along a wall may keep the joint that carries the depth where it is. A person's hand moves it all the same, for
-/// its force varies by some percent within a second. A machine that holds the probe steadier than a count is told from a
-/// stuck sensor by nothing: use `None` for it.
+/// its force varies by some percent within a second. Nothing tells a machine that holds the probe steadier than a count
+/// from a stuck sensor: use `None` for it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct StuckLimits {
