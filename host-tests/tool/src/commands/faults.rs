@@ -1,7 +1,7 @@
 //! `palpate faults`: plants the failures of the page in simulated devices.
 
 use crate::devices::{Arms, arms_parser};
-use crate::faults::{Failure, Found, Reaction, Shown, Subject, coverage, table};
+use crate::faults::{Failure, Found, KNOB, Reaction, Shown, Subject, coverage, table};
 use clap::Args;
 use std::process::ExitCode;
 
@@ -13,10 +13,16 @@ pub struct Arguments {
     /// Simulated device: a name, or the path of a device file.
     #[arg(long, default_value = "woodenhaptics-2016", value_parser = arms_parser())]
     device: Arms,
+    /// The failures of a knob instead, in a simulated one.
+    #[arg(long, conflicts_with = "device")]
+    knob: bool,
 }
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> ExitCode {
+    if arguments.knob {
+        return of_knob();
+    }
     let mut is_good = true;
     for device in arguments.device.each() {
         println!(
@@ -29,6 +35,20 @@ pub fn run(arguments: &Arguments) -> ExitCode {
         println!();
     }
     println!("{}", coverage());
+    if is_good { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+fn of_knob() -> ExitCode {
+    println!("knob\n{:<60}{:>12}{:>10}{:>11}  result", "failure", "promised ms", "found ms", "motion °");
+    let mut is_good = true;
+    for row in &KNOB {
+        let found = row.plant();
+        let time = found.off_ms.map_or_else(|| "never".to_owned(), |time| time.to_string());
+        let fault = found.fault.map_or_else(|| "none".to_owned(), |fault| format!("{}: {fault}", fault.code()));
+        let verdict = if row.is_as_stated(&found) { "off, " } else { "NOT AS STATED: " };
+        println!("{:<60}{:>12}{time:>10}{:>11.3}  {verdict}{fault}", row.failure, row.within_ms, found.motion_degrees);
+        is_good &= row.is_as_stated(&found);
+    }
     if is_good { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 

@@ -133,6 +133,10 @@ impl<K: Kinematics<JOINTS>, const JOINTS: usize> Kinematics<JOINTS> for Poisoned
     }
 }
 
+fn length(vector: Vector) -> f64 {
+    vector.iter().map(|axis| axis * axis).sum::<f64>().sqrt()
+}
+
 fn leaked<T>(value: T) -> &'static T {
     Box::leak(Box::new(value))
 }
@@ -151,11 +155,6 @@ impl Subject {
     /// Whether it is a delta.
     pub const fn is_delta(&self) -> bool {
         matches!(self.device.plant.mechanism, MechanismSettings::Delta(_))
-    }
-
-    /// Whether a motor is folded back to less than half of its torque.
-    pub fn is_folded_back(&self) -> bool {
-        self.device.protection().motors.iter().any(|motor| motor.continuous < 0.5)
     }
 
     /// The effect of a failure; `None` where the device has no loop of that setting.
@@ -274,6 +273,7 @@ impl Run {
         let is_free = matches!(
             self.setting,
             Setting::Protected
+                | Setting::Unprotected
                 | Setting::ReversedMotor(_)
                 | Setting::ReversedEncoder(_)
                 | Setting::NoSupply
@@ -331,7 +331,8 @@ impl Run {
         let (settings, device) = (servo.config().settings, servo.device());
         let force = f64::from(settings.max_force_n.min(device.max_force_n));
         let per_tick = device.max_joint_rate_rad_per_s / RATE as f32 / device.encoders[0].radians_per_count.abs();
-        let (mut found, mut until) = (Found { off_ms: None, fault: None, motion_mm: 0.0 }, PATIENCE);
+        let (mut found, mut until) =
+            (Found { off_ms: None, fault: None, motion_mm: 0.0, speed_m_per_s: 0.0 }, PATIENCE);
         let (mut since, mut start, mut longest) = (None, None, 0);
         let mut tick = 0;
         while tick < until {
@@ -370,12 +371,16 @@ impl Run {
                 // A fault before the failure is none that it was found by.
                 break;
             }
-            let now = rig.world.borrow().plant.position();
+            let (now, velocity) = {
+                let world = rig.world.borrow();
+                (world.plant.position(), world.plant.velocity())
+            };
             if let Some(since) = since {
                 longest = longest.max(tick - since);
                 let from: Vector = *start.get_or_insert(now);
-                let moved = now.iter().zip(from).map(|(now, from)| (now - from).powi(2)).sum::<f64>().sqrt();
+                let moved = length(core::array::from_fn(|axis| now[axis] - from[axis]));
                 found.motion_mm = found.motion_mm.max(1e3 * moved);
+                found.speed_m_per_s = found.speed_m_per_s.max(length(velocity));
             }
             if rig.is_off() && longest > 0 {
                 (found.off_ms, until) = (Some(f64::from(longest) / TICKS_PER_MS), tick + AFTER);

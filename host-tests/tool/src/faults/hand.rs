@@ -20,8 +20,34 @@ pub const SINKS: [(&str, f64); 7] = [
     ("hapkit", 0.0),
 ];
 
+/// An arm that is let go at its deepest press.
+#[derive(Clone, Copy, Debug)]
+pub struct Release {
+    /// The device.
+    pub device: &'static str,
+    /// Its speed, m/s, and motion, mm, when it is stopped; `None` without protection.
+    pub stopped: Option<[f64; 2]>,
+    /// Its largest speed without protection, m/s; `None` where a press as deep ends in another fault.
+    pub free: Option<f64>,
+}
+
+const fn release(device: &'static str, stopped: Option<[f64; 2]>, free: Option<f64>) -> Release {
+    Release { device, stopped, free }
+}
+
+/// Of each device that ships.
+pub const RELEASES: [Release; 7] = [
+    release("woodenhaptics-2016", Some([1.09, 6.4]), Some(1.48)),
+    release("polhem-v2", Some([0.67, 4.7]), Some(1.02)),
+    release("phantom-premium", Some([0.69, 9.8]), Some(1.64)),
+    release("falcon", Some([0.77, 19.7]), Some(0.83)),
+    release("haply-2diy-v3", None, None),
+    release("haply-kit-v1", None, Some(0.65)),
+    release("hapkit", None, Some(1.39)),
+];
+
 /// Twice on the wall, so that all polarities are seen, then as deep as a contact is kept; there it lets go.
-fn is_let_go(touch: &mut Touch<'_>) -> bool {
+pub fn is_let_go(touch: &mut Touch<'_>) -> bool {
     const RELEASED: f64 = 2.0;
     if touch.tick == 0 {
         touch.hold(HandSettings::default());
@@ -64,23 +90,15 @@ pub(super) const TABLE: &[Failure] = &[
         [
             "hand",
             "the arm is let go at its deepest press",
-            "speed limits",
+            "speed limits; the wall's energy in the motion",
             "an_arm_released_from_the_deepest_press_is_stopped",
         ],
-        300.0,
+        100.0,
         Latched(Fault::Overspeed),
         Planted(Setting::Protected, is_let_go),
     )
-    .but("a Falcon (friction brakes it), a Phantom (motors folded back store too little energy), devices of one or two joints (no `Protection` ships)", |subject| {
-        if subject.joints() < 3 {
-            Some("no protection ships for it")
-        } else {
-            match (subject.is_delta(), subject.is_folded_back()) {
-                (true, _) => Some("its dry friction brakes it below the limits"),
-                (_, true) => Some("its motors, folded back, store less energy than the limit is derived from"),
-                _ => None,
-            }
-        }
+    .but("devices of one or two joints (no `Protection` ships)", |subject| {
+        (subject.joints() < 3).then_some("no protection ships for it")
     }),
     row(
         [

@@ -5,6 +5,7 @@ mod bench;
 mod clock;
 mod hand;
 mod host;
+mod knob;
 mod line;
 mod memory;
 mod motor;
@@ -12,8 +13,10 @@ mod sensor;
 mod supply;
 
 pub use bench::{Subject, Touch};
-pub use hand::SINKS;
+pub use hand::{RELEASES, Release, SINKS, is_let_go};
+pub use knob::{KNOB, brakes_with_a_chopper};
 
+use knob::KnobFailure;
 use palpate::servo::{Fault, ResetReason};
 use std::fmt::Write as _;
 
@@ -39,7 +42,9 @@ pub enum Setting {
     Linked,
     /// The same, but a protected loop and a hand 10 mm over the wall, which then comes.
     Protected,
-    /// The same with the motor of a joint reversed.
+    /// As [`Self::Protected`], with an unprotected loop.
+    Unprotected,
+    /// As [`Self::Protected`], with the motor of a joint reversed.
     ReversedMotor(usize),
     /// The same with the encoder of a joint reversed.
     ReversedEncoder(usize),
@@ -164,6 +169,8 @@ pub struct Found {
     pub fault: Option<Fault>,
     /// Largest motion of the probe until the motors were off, mm.
     pub motion_mm: f64,
+    /// Largest speed of the probe until the motors were off, m/s.
+    pub speed_m_per_s: f64,
 }
 
 /// Every failure, by part.
@@ -227,6 +234,27 @@ pub fn page() -> String {
     let _ = writeln!(page, "| device | mm |\n|---|---|");
     for (device, sink) in SINKS {
         let _ = writeln!(page, "| {device} | {sink} |");
+    }
+    let _ = writeln!(
+        page,
+        "\nAn arm that is let go at its deepest press, when it is stopped, and without protection:\n\n| device | m/s | mm | without, m/s |\n|---|---|---|---|"
+    );
+    for Release { device, stopped, free } in RELEASES {
+        let [speed, motion] =
+            stopped.map_or(["not stopped".to_owned(), String::new()], |found| found.map(|number| number.to_string()));
+        let free = free.map_or_else(|| "another fault first".to_owned(), |free| free.to_string());
+        let _ = writeln!(page, "| {device} | {speed} | {motion} | {free} |");
+    }
+    let _ = writeln!(
+        page,
+        "\nOf a knob, all planted by `cargo palpate faults --knob`:\n\n| failure | detected by | within, ms | reaction | shown by |\n|---|---|---|---|---|"
+    );
+    for KnobFailure { failure, detected_by, within_ms, fault, test, .. } in KNOB {
+        let _ = writeln!(
+            page,
+            "| {failure} | {detected_by} | {within_ms} | off, [{}: {fault}](../troubleshooting.md#faults) | `{test}` |",
+            fault.code()
+        );
     }
     page
 }

@@ -1,7 +1,13 @@
 //! Sensors of the joints.
 
 use super::hand::APPROACHES;
-use super::{Failure, Reaction::Latched, Setting, Shown::Planted, Touch, gap, row};
+use super::{
+    Failure,
+    Reaction::Latched,
+    Setting,
+    Shown::{Planted, Tested},
+    Touch, gap, row,
+};
 use palpate::servo::Fault;
 use palpate_bench::sensors::BadFrame;
 use palpate_sim::plant::EncoderFault;
@@ -109,7 +115,7 @@ pub(super) const TABLE: &[Failure] = &[
         [
             "sensor",
             "a counter sticks under load, the others move",
-            "stuck limits",
+            "stuck limits: 30 mm of travel, 0.75 s",
             "a_count_that_stands_still_under_load_is_found_by_default",
         ],
         2_000.0,
@@ -139,6 +145,17 @@ pub(super) const TABLE: &[Failure] = &[
             }
             touch.leaves_range
         }),
+    ),
+    row(
+        [
+            "sensor",
+            "the controller of the bus never ends a frame (Pico 2, Teensy)",
+            "bounded wait; third in a row",
+            "test_bus_that_never_ends_a_frame_stops_in_the_third_tick_and_no_tick_is_long",
+        ],
+        0.75,
+        Latched(Fault::FrameLost),
+        Tested,
     ),
     gap(
         "sensor",

@@ -4,7 +4,7 @@ use super::{
     Failure,
     Reaction::{Hold, Latched},
     Setting,
-    Shown::Planted,
+    Shown::{Planted, Tested},
     row,
 };
 use palpate::servo::{Fault, ResetReason};
@@ -51,6 +51,28 @@ pub(super) const TABLE: &[Failure] = &[
             touch.world.measured = |_| None;
             true
         }),
+    ),
+    row(
+        [
+            "supply",
+            "a conversion never ends",
+            "bounded wait; reading absent",
+            "test_conversion_that_never_ends_stops_within_five_ticks",
+        ],
+        1.25,
+        Hold,
+        Tested,
+    ),
+    row(
+        [
+            "supply",
+            "the converter's reference is wrong",
+            "it measures a voltage of the chip too",
+            "test_converter_that_measures_its_own_reference_wrong_stops_within_five_ticks",
+        ],
+        1.25,
+        Hold,
+        Tested,
     ),
     row(
         [

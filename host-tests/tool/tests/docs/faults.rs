@@ -3,7 +3,9 @@
 use crate::pages::{compare, files, sources, text};
 use palpate::servo::Fault;
 use palpate_tool::devices::DEVICES;
-use palpate_tool::faults::{Failure, Reaction, SINKS, Setting, Shown, Subject, page, table};
+use palpate_tool::faults::{
+    Failure, KNOB, RELEASES, Reaction, SINKS, Setting, Shown, Subject, brakes_with_a_chopper, is_let_go, page, table,
+};
 
 const PAGE: &str = "docs/reference/faults.md";
 const MARK: &str = "<!-- generated: cargo palpate faults -->\n\n";
@@ -37,9 +39,10 @@ fn every_row_names_a_test() {
         .map(|file| text(&file))
         .collect();
     let registers: String = files("host-tests/registers", "py").iter().map(|file| text(file)).collect();
-    for row in table().filter(|row| row.is_detected()) {
-        let is_there = all.contains(&format!("fn {}()", row.test)) || registers.contains(&format!("def {}(", row.test));
-        assert!(is_there, "{PAGE}: no test {}", row.test);
+    let arms = table().filter(|row| row.is_detected()).map(|row| row.test);
+    for test in arms.chain(KNOB.iter().map(|row| row.test)) {
+        let is_there = all.contains(&format!("fn {test}()")) || registers.contains(&format!("def {test}("));
+        assert!(is_there, "{PAGE}: no test {test}");
     }
 }
 
@@ -72,5 +75,37 @@ fn an_arm_of_ten_percent_more_weight_sinks_as_far_as_the_page_states() {
         assert_eq!((device.name, found.fault), (name, None));
         // The last digit of the page.
         assert!((found.motion_mm - sink).abs() <= 0.5, "{name}: {} mm, {sink} on the page", found.motion_mm);
+    }
+}
+
+#[test]
+fn an_arm_that_is_let_go_is_as_fast_as_the_page_states() {
+    let mut found = Vec::new();
+    for device in &DEVICES {
+        let subject = Subject::new(device);
+        let [stopped, free] =
+            [Setting::Protected, Setting::Unprotected].map(|setting| subject.plant(setting, is_let_go));
+        let stopped = stopped.map(|found| [found.speed_m_per_s, found.motion_mm]);
+        found.push((device.name, stopped, free.expect("it can be planted").speed_m_per_s));
+    }
+    println!("{found:.2?}");
+    // The last digits of the page.
+    let is_near = |found: f64, page: f64, digit: f64| (found - page).abs() <= 0.5 * digit;
+    for ((name, stopped, free), page) in found.into_iter().zip(RELEASES) {
+        let is_same = match (stopped, page.stopped) {
+            (Some([speed, motion]), Some([page, moved])) => is_near(speed, page, 0.01) && is_near(motion, moved, 0.1),
+            (stopped, page) => stopped.is_none() && page.is_none(),
+        };
+        let is_free = is_near(free, page.free.unwrap_or(0.0), 0.01);
+        assert!(name == page.device && is_same && is_free, "{name}: {stopped:?}, {free}");
+    }
+}
+
+#[test]
+fn every_failure_of_a_knob_is_detected_as_the_page_states() {
+    assert_eq!(brakes_with_a_chopper(), None);
+    for row in &KNOB {
+        let found = row.plant();
+        assert!(row.is_as_stated(&found), "{}: {found:?}", row.failure);
     }
 }
