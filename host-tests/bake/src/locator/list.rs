@@ -145,22 +145,41 @@ fn by_face<'a>(regions: &[Region<'a>], faces: &Faces) -> Vec<(u16, Vec<Region<'a
     groups.into_iter().collect()
 }
 
-/// Regions that hang together.
+/// Regions that hang together, in their order.
 fn components<'a>(regions: Vec<Region<'a>>, faces: &Faces) -> Vec<Vec<Region<'a>>> {
-    let touch = |a: &Region<'_>, b: &Region<'_>| {
-        let ([a_low, a_high], [b_low, b_high]) = (a.rectangle(faces), b.rectangle(faces));
-        (0..2).all(|axis| a_low[axis] <= b_high[axis] && b_low[axis] <= a_high[axis])
-    };
-    let mut groups: Vec<Vec<Region<'a>>> = Vec::new();
-    for region in regions {
-        let (near, far): (Vec<_>, Vec<_>) =
-            groups.into_iter().partition(|group| group.iter().any(|other| touch(&region, other)));
-        groups = far;
-        let mut joined: Vec<_> = near.into_iter().flatten().collect();
-        joined.push(region);
-        groups.push(joined);
+    let rectangles: Vec<_> = regions.iter().map(|region| region.rectangle(faces)).collect();
+    // By rising u: those that begin beyond the end of one touch neither it nor what ends before.
+    let mut order: Vec<usize> = (0..regions.len()).collect();
+    order.sort_by(|a, b| rectangles[*a][0][0].total_cmp(&rectangles[*b][0][0]));
+    // Each leads to an earlier one that it hangs together with, or to itself.
+    let mut leads: Vec<usize> = (0..regions.len()).collect();
+    for (place, a) in order.iter().enumerate() {
+        let [a_low, a_high] = rectangles[*a];
+        for b in &order[place + 1..] {
+            let [b_low, b_high] = rectangles[*b];
+            if b_low[0] > a_high[0] {
+                break;
+            }
+            if a_low[1] <= b_high[1] && b_low[1] <= a_high[1] {
+                let [first, second] = [*a, *b].map(|index| first(&mut leads, index));
+                leads[first.max(second)] = first.min(second);
+            }
+        }
     }
-    groups
+    let mut groups: BTreeMap<usize, Vec<Region<'a>>> = BTreeMap::new();
+    for (index, region) in regions.into_iter().enumerate() {
+        groups.entry(first(&mut leads, index)).or_default().push(region);
+    }
+    groups.into_values().collect()
+}
+
+/// The first that one leads to; the way there gets shorter.
+fn first(leads: &mut [usize], mut index: usize) -> usize {
+    while leads[index] != index {
+        leads[index] = leads[leads[index]];
+        index = leads[index];
+    }
+    index
 }
 
 // The octree that a search leaves behind.
