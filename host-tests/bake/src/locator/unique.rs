@@ -428,8 +428,11 @@ mod tests {
         let surface = StoredSurface::new(&patch);
         let seams = Seams::find(std::slice::from_ref(&surface), 1e-9);
         let faces = Faces::new(&[patch], seams, &[[Vec::new(), Vec::new()]], 0.1).ok_or("a weight")?;
-        for (x, is_one) in [(3e-3, true), (4e-3, true), (5e-3, true), (0.0, false)] {
-            let probes = Probes::cube(DVec3::new(x, -1.2e-3, 1.6e-3), 1e-3);
+        // The last two: around the hole's axis, and out to its rim, where a slope may hold a probe back or not.
+        for (x, half, is_one) in
+            [(3e-3, 1e-3, true), (4e-3, 1e-3, true), (5e-3, 1e-3, true), (0.0, 1e-3, false), (0.0, 2.5e-3, false)]
+        {
+            let probes = Probes::cube(DVec3::new(x, -1.2e-3, 1.6e-3), half);
             let is_proved = |in_plane: bool| {
                 let query = Query { probes, references: &[], seam: 0.0, farthest: 0.02, convex: &[], in_plane };
                 let rectangle = Rectangle { lower: [0; 2], upper: [GRID as u8; 2] };
