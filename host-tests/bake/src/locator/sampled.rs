@@ -199,7 +199,7 @@ fn drawn(faces: &Faces, probes: &Probes, entries: &[Entry], index: usize, random
     probe.as_vec3()
 }
 
-/// Entries at the beginning of a list that a search always has evaluations for.
+/// First entries of a list, that a search always has evaluations for.
 fn in_reach(evaluations: u16) -> usize {
     usize::from(evaluations / u16::from(MAX_EVALUATIONS_PER_CANDIDATE_CONVEX)).min(REACH)
 }

@@ -410,7 +410,7 @@ mod tests {
         let point = |[x, y]: [f64; 2], z: f64| format!("[{}, {}, {}]", x, 0.8 * y - 0.6 * z, 0.6 * y + 0.8 * z);
         let row = |at: usize| {
             let far = [5.0, -5.0 + 10.0 * at as f64 / 3.0];
-            let z = if at % 3 == 0 { 0.0 } else { raised };
+            let z = if at.is_multiple_of(3) { 0.0 } else { raised };
             format!("[{}, {}]", point(arc[at], z), point(far, z))
         };
         let rows: Vec<_> = (0..4).map(row).collect();
