@@ -99,7 +99,7 @@ fn accepted(toolchain: &Toolchain, board: AnyBoard) -> anyhow::Result<PathBuf> {
     let AnyBoard::Bench(board) = board else { return Ok(folder.join("accept")) };
     let (built, image) = (folder.join(board.name()), folder.join(format!("{}-accept", board.name())));
     fs::rename(&built, &image).with_context(|| built.display().to_string())?;
-    print!("{}", firmware::report(board, Kind::Alone, &image)?);
+    print!("{}", firmware::report(board, Kind::Accepted, &image)?);
     Ok(image)
 }
 

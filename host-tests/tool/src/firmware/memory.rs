@@ -35,6 +35,8 @@ pub enum Kind {
     Alone,
     /// A host may change the rendered body (feature `host`).
     Hosted,
+    /// Its acceptance (feature `accept`).
+    Accepted,
 }
 
 const KB: u64 = 1_024;
@@ -64,6 +66,12 @@ impl BenchBoard {
             memory("DTCM", 0x2000_0000, 320 * KB, "core-coupled RAM for data"),
             memory("FLASH", 0x6000_0000, 7_936 * KB, "flash"),
         ];
+        // The script's code takes more than any other's.
+        const TEENSY41_ACCEPTED: &[Memory] = &[
+            memory("ITCM", 0x0000_0000, 224 * KB, "core-coupled RAM for code"),
+            memory("DTCM", 0x2000_0000, 288 * KB, "core-coupled RAM for data"),
+            memory("FLASH", 0x6000_0000, 7_936 * KB, "flash"),
+        ];
         const STM32G4_HOSTED: &[Memory] = &[
             memory("CCM", 0x1000_0000, 32 * KB, "core-coupled RAM"),
             memory("STACK", 0x2000_0000, 8 * KB, "RAM, left to the stack"),
@@ -78,11 +86,12 @@ impl BenchBoard {
             memory("FLASH", 0x1000_0000, 3 * KB * KB, "flash"),
         ];
         match (self, kind) {
-            (Self::Stm32g4, Kind::Alone) => STM32G4,
+            (Self::Stm32g4, Kind::Alone | Kind::Accepted) => STM32G4,
             (Self::Stm32g4, Kind::Hosted) => STM32G4_HOSTED,
-            (Self::Pico2, Kind::Alone) => PICO2,
+            (Self::Pico2, Kind::Alone | Kind::Accepted) => PICO2,
             (Self::Pico2, Kind::Hosted) => PICO2_HOSTED,
-            (Self::Teensy41, _) => TEENSY41,
+            (Self::Teensy41, Kind::Alone | Kind::Hosted) => TEENSY41,
+            (Self::Teensy41, Kind::Accepted) => TEENSY41_ACCEPTED,
         }
     }
 
@@ -91,11 +100,11 @@ impl BenchBoard {
     const fn room(self, kind: Kind) -> [u64; 2] {
         match (self, kind) {
             // 16 KB of TABLES for code that CCM does not take and for constants; 32 KB of flash for the program.
-            (Self::Stm32g4, Kind::Alone) => [56 * KB, 352 * KB],
+            (Self::Stm32g4, Kind::Alone | Kind::Accepted) => [56 * KB, 352 * KB],
             // 96 KB for the code of the largest kind of body and of the plug, and for constants.
-            (Self::Pico2, Kind::Alone) => [352 * KB, (3 * KB - 64) * KB],
+            (Self::Pico2, Kind::Alone | Kind::Accepted) => [352 * KB, (3 * KB - 64) * KB],
             // 32 KB of stack, 32 KB of variables and constants, including the USB controller's lists.
-            (Self::Teensy41, Kind::Alone) => [256 * KB, (7_936 - 256) * KB],
+            (Self::Teensy41, Kind::Alone | Kind::Accepted) => [256 * KB, (7_936 - 256) * KB],
             // A scene's code takes most of CCM and TABLES. With the initial values of variables it takes 83 KB of the
             // program's bank of flash.
             (Self::Stm32g4, Kind::Hosted) => [4 * KB, 44 * KB],
