@@ -4,8 +4,8 @@
 use super::curve::SplineCurve;
 use crate::patch::{Coefficients, SplinePatch};
 
-/// Instructions of a second-order evaluation of degree (n, n), 1 to 3: polynomial, rational.
-const UNROLLED: [[u32; 3]; 2] = [[66, 138, 243], [125, 231, 459]];
+/// Instructions of a second-order evaluation of degree (n, n), 1 to 5: polynomial, rational.
+const UNROLLED: [[u32; 5]; 2] = [[66, 138, 243, 497, 656], [125, 231, 459, 657, 869]];
 /// The same of any other degree, by rows: at all, and for each coefficient of a span.
 const BY_ROWS: [[u32; 2]; 2] = [[260, 36], [366, 47]];
 /// Instructions of a curve of degree 10: polynomial, rational.
@@ -33,7 +33,7 @@ const fn is_rational(coefficients: Coefficients<'_>) -> bool {
 /// Instructions of a second-order evaluation.
 pub const fn evaluation([u, v]: [u8; 2], is_rational: bool) -> u32 {
     let kind = is_rational as usize;
-    if u == v && u >= 1 && u <= 3 {
+    if u == v && u >= 1 && u <= 5 {
         return UNROLLED[kind][u as usize - 1];
     }
     let [all, each] = BY_ROWS[kind];

@@ -62,7 +62,10 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         if S::Witness::HAS_OWN_FORCE_ONLY {
             return Vec3::ZERO;
         }
-        let wall = self.core.eased.map_or(self.core.penalty, |eased| eased.wall(&self.core.penalty, state.gap()));
+        let wall = match &self.core.eased {
+            Some(eased) if state.contact() == Contact::Touching => eased.wall(&self.core.penalty, state.gap()),
+            _ => self.core.penalty,
+        };
         let push = self.core.surface.push(&mut state.contact.witness, &wall, normal, tool.velocity);
         let witness = *state.contact.witness.witness();
         let surface = &witness.surface;
