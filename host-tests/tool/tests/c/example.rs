@@ -50,8 +50,9 @@ fn the_example_in_c_computes_the_bits_of_the_image_in_rust_and_cannot_panic() {
         in_c::example(&capped_box(), &elf, &progress).expect("the example builds")
     };
 
-    // A loop takes 40,000 bytes or more of it: the library holds ten, and the linker keeps the one that is started.
-    assert!(example.image.flash < 110_000, "loops are linked that are not started: {} bytes", example.image.flash);
+    // Another loop would take 40,000 bytes or more: the library holds ten, and the linker keeps the one that is started.
+    // With all kinds of patches, whose code is unrolled, the image takes 119,000.
+    assert!(example.image.flash < 130_000, "loops are linked that are not started: {} bytes", example.image.flash);
 
     // All of it, not a call tree: what the linker kept is what can be reached.
     let found = panicking(&elf);
