@@ -379,7 +379,7 @@ pub struct TableCheck {
     pub crc: u32,
     /// How often the whole table was found good.
     pub passes: u32,
-    /// Whether the last word that was read is not yet in the CRC; `crc` then holds both ([`crc32_with`]).
+    /// Whether the last word that was read is not yet in the CRC; `crc` then holds both.
     pub is_read: bool,
 }
 

@@ -324,7 +324,7 @@ fn no_change_of_the_feel_makes_a_step_while_a_hand_turns_the_dial() {
     let step = f64::from(LET_GO / SETTINGS.rate_hz);
     let limit = 2.8 * 0.02;
     let (mut largest, mut taken, mut checked, mut click) = (0.0_f64, 0, 0_u32, 0);
-    let mut left_over = 0.0_f64;
+    let (mut left_over, mut clicks) = (0.0_f64, None);
     let (from, began) = (device.rig.world.borrow().dial.angle(), device.rig.world.borrow().dial.time());
     for number in 0..valid + spoiled {
         let angle = device.rig.bench.state().witness().angle().expect("it has ticked");
@@ -354,6 +354,7 @@ fn no_change_of_the_feel_makes_a_step_while_a_hand_turns_the_dial() {
             let rate = 2.6 * (1.3 * time).cos() + 2.13 * (7.1 * time).cos();
             device.rig.set(|world| world.dial.hold(Fingers { stiffness: 2.0, damping: 0.01, aim, rate }));
             let before = f64::from(torque(&device));
+            let from_angle = f64::from(device.rig.bench.state().witness().angle().expect("it has ticked"));
             device.told.clear();
             device.tick();
             let is_taken = |told: &DeviceMessage| matches!(told, DeviceMessage::Answer(Answer { refused: None, .. }));
@@ -368,6 +369,11 @@ fn no_change_of_the_feel_makes_a_step_while_a_hand_turns_the_dial() {
                 assert!((after - before).abs() <= 1e-3, "{number}, {tick}: a step of {} N·m", after - before);
             }
             let Some(feel) = witness.own() else { continue };
+            // New clicks hold the dial in the detent that was nearest when they came.
+            if let Some(new) = feel.clicks.filter(|_| feel.clicks != clicks) {
+                click = ((from_angle / f64::from(new.pitch)).round() as i32).clamp(new.first, new.last);
+            }
+            clicks = feel.clicks;
             // By its own formula the torque is that of the feel, and what is left over of the one before.
             let (angle, [rate]) = (witness.angle().expect("it has ticked"), state.rates());
             let Some(asked) = asked(feel, &mut click, f64::from(angle), f64::from(rate)) else {
