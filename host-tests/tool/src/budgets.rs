@@ -90,6 +90,15 @@ impl Verdict {
     }
 }
 
+/// The image of a board whose body is the foam box; how many of its modes move is a feature of the program.
+///
+/// # Errors
+/// If this is not the repository.
+pub fn soft_choice(board: Board) -> Result<Choice, BudgetError> {
+    let body = repository::root()?.join("boards/emulated/soft.rs");
+    Ok(Choice { board, body: Some(body), ..Choice::default() })
+}
+
 /// Builds the counting program and runs it on an emulated board.
 ///
 /// # Errors
@@ -112,8 +121,7 @@ pub fn measure(board: Board, progress: &Progress) -> Result<Figures, BudgetError
     }
     // The foam's modes move the body of these images; one core alone, for they take minutes to build.
     if board == Board::M4 {
-        let body = repository::root()?.join("boards/emulated/soft.rs");
-        let soft = Choice { board, body: Some(body), ..Choice::default() };
+        let soft = soft_choice(board)?;
         for modes in ["soft", "soft-four", "soft-eight"] {
             all.0.extend(figures(&Program::prepare_with(&soft, "budget", &[modes], progress)?.run(Pace::Counting)?)?.0);
         }

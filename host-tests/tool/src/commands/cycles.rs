@@ -1,8 +1,9 @@
 //! `palpate cycles`: what the hot path may take on real cores, estimated from the instructions that the emulator
 //! executes.
 
-use crate::cycles::{Core, Figure, ROOTS, estimate};
-use crate::firmware::{Board, Progress};
+use crate::budgets::soft_choice;
+use crate::cycles::{Core, Figure, LOOPS, ROOTS, Root, SERVO, estimate};
+use crate::firmware::{Board, Program, Progress};
 use clap::Args;
 use std::process::ExitCode;
 
@@ -29,7 +30,17 @@ pub fn run(_: &Arguments) -> anyhow::Result<ExitCode> {
     for (board, core, chip, clock) in
         [(Board::M4, Core::M4, "STM32G474", 170e6), (Board::M7, Core::M7, "i.MX RT1062", 600e6)]
     {
-        let found = estimate(board, core, &ROOTS, &Progress::new())?;
+        let progress = Progress::new();
+        let mut found = estimate(&Program::prepare(board, "budget", &[], &progress)?, core, &ROOTS)?;
+        // One core: they take minutes to build.
+        for (feature, title) in LOOPS.into_iter().filter(|_| board == Board::M4) {
+            let program = if feature.starts_with("soft") {
+                Program::prepare_with(&soft_choice(board)?, "budget", &[feature], &progress)?
+            } else {
+                Program::prepare(board, "budget", &[feature], &progress)?
+            };
+            found.extend(estimate(&program, core, &[Root { title, ..SERVO }])?);
+        }
         println!("{}: estimated cycles; microseconds on a {chip} at {} MHz", board.core(), clock / 1e6);
         println!(
             "  {:<28}{:>13}{:>15}{:>13}{:>15}{:>15}",

@@ -28,6 +28,18 @@ pub struct Root {
 /// The functions of the program that counts are not inlined; the library's may be.
 const EVALUATE: &str = "palpate_emulated::budget::evaluation::evaluate";
 
+/// The whole tick of a loop.
+pub const SERVO: Root =
+    Root { function: "palpate_emulated::budget::servo::tick", title: "servo tick", skip: 0, take: 20_000 };
+
+/// Loops that have an image of their own: its feature, and what a tick is called; on the foam box where that is soft.
+pub const LOOPS: [(&str, &str); 4] = [
+    ("counted", "servo tick, protected"),
+    ("folded", "servo tick, folded back"),
+    ("smooth", "servo tick, smooth"),
+    ("soft-four", "servo tick, 4 modes"),
+];
+
 /// The estimated calls. The program first evaluates patches of degree 1 to 5, polynomial, then rational.
 pub const ROOTS: [Root; 5] = [
     Root { function: EVALUATE, title: "evaluation, degree (2, 2)", skip: 1, take: 1 },
@@ -39,7 +51,7 @@ pub const ROOTS: [Root; 5] = [
         skip: 0,
         take: 5_000,
     },
-    Root { function: "palpate_emulated::budget::servo::tick", title: "servo tick", skip: 0, take: 20_000 },
+    SERVO,
 ];
 
 /// Instructions and cycles of the calls of a root.

@@ -2,7 +2,7 @@
 
 use super::model::{Core, Cost, Cycles};
 use super::{Calls, Root};
-use crate::firmware::{Board, Program, Progress, SetUpError};
+use crate::firmware::{Program, SetUpError};
 use crate::proof::{Code, CodeError, Flow, Tree};
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::io::{self, BufRead, BufReader};
@@ -36,18 +36,12 @@ struct Window {
     executed: Vec<u64>,
 }
 
-/// Runs the program that counts on a board until each of these roots was called often enough, and returns the
-/// instructions and cycles of the calls on its core.
+/// Runs a program that counts until each of these roots was called often enough, and returns the instructions and cycles
+/// of the calls on its core.
 ///
 /// # Errors
-/// A program that cannot be built, run or read.
-pub fn estimate(
-    board: Board,
-    core: Core,
-    roots: &[Root],
-    progress: &Progress,
-) -> Result<Vec<(Root, Calls)>, TraceError> {
-    let program = Program::prepare(board, "budget", &[], progress)?;
+/// A program that cannot be run or read.
+pub fn estimate(program: &Program, core: Core, roots: &[Root]) -> Result<Vec<(Root, Calls)>, TraceError> {
     let code = Code::read(&program.image.elf)?;
     let (mut functions, mut wanted) = (BTreeMap::new(), Vec::new());
     let mut starts = HashSet::new();

@@ -31,7 +31,8 @@ fn the_instructions_followed_are_those_that_the_budget_counts() {
     // The closest point comes after the servo's whole walk: minutes, instruction by instruction.
     let roots: Vec<Root> = ROOTS.iter().filter(|root| !root.title.starts_with("closest")).copied().collect();
     let roots: Vec<Root> = roots.iter().map(|root| Root { take: root.take.min(CALLS), ..*root }).collect();
-    let found = estimate(Board::M4, Core::M4, &roots, &Progress::new()).expect("the program is followed");
+    let program = Program::prepare(Board::M4, "budget", &[], &Progress::new()).expect("the program builds");
+    let found = estimate(&program, Core::M4, &roots).expect("the program is followed");
     let budget = Budget::load(Board::M4).expect("the committed budget");
     for (root, calls) in &found {
         assert_eq!(calls.instructions.len(), root.take, "{}", root.title);
