@@ -104,8 +104,8 @@ pub static COUPLED: ServoOf<Delta> = Servo::new(
     },
 );
 
-/// A five-bar on a turntable whose force is smooth, that watches for stuck sensors and bears some overruns. As on the
-/// body, nothing ends deep contact.
+/// A five-bar on a turntable whose force is smooth, that watches for stuck sensors within the length of a stroke,
+/// and bears some overruns. As on the body, nothing ends deep contact.
 pub static WATCHFUL: ServoOf<LinkageArm> = Servo::new(
     &POLHEM_V2,
     &table1c::PATCHES[0],
@@ -114,7 +114,7 @@ pub static WATCHFUL: ServoOf<LinkageArm> = Servo::new(
         rendering: Rendering::SMOOTH,
         safety: Safety {
             max_overruns: 1,
-            stuck: Some(StuckLimits { load: 1.0, travel_m: 0.01 }),
+            stuck: Some(StuckLimits { load: 1.0, travel_m: 0.003 }),
             contact: None,
             ..Safety::DEFAULT
         },
