@@ -30,7 +30,7 @@ use std::process::ExitCode;
 /// --soft: the body deforms. Of a closed body of one elastic material (youngs_modulus_pa, poissons_ratio, density_kg_per_m3,
 /// damping_ratio) the modes of lowest frequency that a quadratic displacement of space holds go to a modes file, beside
 /// --out or in the current directory: NAME.modes.toml, as closest --modes and sim --modes read it. Rust source gets them
-/// too: MODES and MOTION. A file with modes of your own ([[mode]]) instead of a material is checked.
+/// too: MODES and MOTION. A file with modes of your own instead of a material is checked.
 ///
 /// Exit status: 0 for a usable body; 1 with --require-certified if it is not certified (the file is written); 2 for bad
 /// input (it is not).
