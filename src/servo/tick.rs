@@ -279,7 +279,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
             && !self.guard.withholds_force(&state.guard)
             && state.sensors.stillness.is_broken(
                 limits,
-                // Saturates after years.
+                // In steps of an eighth of a second at most: after twelve days, when the ticks of 4 kHz start again.
                 (state.ticks as f32 * self.core.period * 64.0) as u32 as u8,
                 &self.core.device.dry_friction_n_m,
                 &counts,

@@ -249,7 +249,8 @@ impl<const JOINTS: usize> Stillness<JOINTS> {
     /// Checks the probe's way or the next joint, one per tick: whether it has not moved by a count under load while the probe came far.
     ///
     /// `felt` is the torque of the contact force on each joint, N·m, without gravity compensation, which the links'
-    /// weight balances; `friction` is each joint's dry friction; `now` is the time, s/64. A joint whose friction is not known is not checked.
+    /// weight balances; `friction` is each joint's dry friction; `now` is the time, s/64. A joint whose friction is not
+    /// known is not checked.
     #[inline]
     pub(super) fn is_broken(
         &mut self,

@@ -103,11 +103,11 @@ impl ReleaseWatch {
             twice += inertia * rate * rate;
         }
         let motion = 0.5 * twice;
-        // A hand that slides along the wall has a motion of its own: what the wall gave is at most its work.
-        let given = if state.work < motion { state.work } else { motion };
-        // `given + loss · speed ≥ half of the energy`, squared: no root in the tick.
+        // A hand that slides along the wall has a motion of its own: what the wall released is at most its work.
+        let released = if state.work < motion { state.work } else { motion };
+        // `released + loss · speed ≥ half of the energy`, squared: no root in the tick.
         let (energy, loss) = (share * self.energy, share * self.loss);
-        let missing = SHARE * energy - given;
+        let missing = SHARE * energy - released;
         let is_enough = missing <= 0.0 || loss * loss * moving.velocity.length_squared() >= missing * missing;
         is_enough && state.work >= SHARE * motion
     }
