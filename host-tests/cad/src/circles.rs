@@ -210,19 +210,22 @@ fn phase(mesh: &Mesh<'_>, group: &[(usize, [f64; 2])], count: usize) -> f64 {
 
 /// The share of its length at which a wire has this parameter.
 fn share_of(mesh: &Mesh<'_>, wire: usize, t: f64) -> f64 {
-    let length = |from: f64, to: f64| {
-        let points = (0..=128).map(|k| mesh.at(wire, from + (to - from) * f64::from(k) / 128.0)[0]).collect::<Vec<_>>();
-        points.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f64>()
-    };
-    length(0.0, t) / length(0.0, 1.0).max(f64::MIN_POSITIVE)
+    length(mesh, wire, t) / length(mesh, wire, 1.0).max(f64::MIN_POSITIVE)
+}
+
+/// The length of a wire up to a parameter.
+fn length(mesh: &Mesh<'_>, wire: usize, to: f64) -> f64 {
+    let points = (0..=128).map(|k| mesh.at(wire, to * f64::from(k) / 128.0)[0]).collect::<Vec<_>>();
+    points.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f64>()
 }
 
 /// The parameter at which a wire has gone this share of its length.
 fn by_length(mesh: &Mesh<'_>, wire: usize, share: f64) -> f64 {
+    let whole = length(mesh, wire, 1.0).max(f64::MIN_POSITIVE);
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..40 {
         let middle = 0.5 * (low + high);
-        if share_of(mesh, wire, middle) < share { low = middle } else { high = middle }
+        if length(mesh, wire, middle) / whole < share { low = middle } else { high = middle }
     }
     let t = 0.5 * (low + high);
     if !(1e-7..=1.0 - 1e-7).contains(&t) { 0.0 } else { t }

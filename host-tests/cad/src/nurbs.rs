@@ -1,6 +1,7 @@
 //! NURBS curves and surfaces as the file has them, evaluated in double precision with two derivatives.
 
 use glam::{DVec2, DVec3, DVec4};
+use std::hash::{Hash as _, Hasher};
 
 /// The highest degree a file may use.
 pub const MAX_DEGREE: usize = 25;
@@ -53,20 +54,23 @@ impl Jet {
     }
 }
 
-/// Basis functions that do not vanish at a parameter: values, first and second derivatives.
-struct Basis {
+/// Basis functions of a degree below `N` that do not vanish at a parameter: values, first and second derivatives.
+struct Basis<const N: usize> {
     first: usize,
-    values: [[f64; MAX_DEGREE + 1]; 3],
+    values: [[f64; N]; 3],
 }
 
-impl Basis {
+/// Rows for most degrees: those for the highest take longer to clear than to fill.
+const FEW: usize = 6;
+
+impl<const N: usize> Basis<N> {
     /// By the recursion of Cox and de Boor; derivatives from the functions of lower degree.
     fn new(knots: &[f64], degree: usize, count: usize, t: f64) -> Self {
         let upper = knots[degree + 1..count].partition_point(|knot| *knot <= t) + degree;
         let span = upper.min(count - 1);
         // values[k] keeps the functions of degree − k, aligned so that entry i belongs to point span − degree + i.
-        let mut values = [[0.0; MAX_DEGREE + 1]; 3];
-        let mut row = [0.0; MAX_DEGREE + 1];
+        let mut values = [[0.0; N]; 3];
+        let mut row = [0.0; N];
         row[0] = 1.0;
         for level in 0..=degree {
             let mut carry = 0.0;
@@ -80,10 +84,10 @@ impl Basis {
                 row[level] = carry;
             }
             if degree - level < 3 {
-                values[degree - level][..=level].copy_from_slice(&row[..=level]);
+                values[degree - level] = row;
             }
         }
-        let differentiate = |lower: &mut [f64; MAX_DEGREE + 1], level: usize| {
+        let differentiate = |lower: &mut [f64; N], level: usize| {
             let mut carry = 0.0;
             for (i, value) in lower.iter_mut().enumerate().take(level) {
                 let width = knots[span + 1 + i] - knots[span + 1 + i - level];
@@ -112,8 +116,12 @@ impl Curve {
 
     /// Position, first and second derivative at `t`, which is brought into the range.
     pub fn at(&self, t: f64) -> [DVec3; 3] {
+        if self.degree < FEW { self.at_by::<FEW>(t) } else { self.at_by::<{ MAX_DEGREE + 1 }>(t) }
+    }
+
+    fn at_by<const N: usize>(&self, t: f64) -> [DVec3; 3] {
         let [low, high] = self.range();
-        let basis = Basis::new(&self.knots, self.degree, self.points.len(), t.clamp(low, high));
+        let basis = Basis::<N>::new(&self.knots, self.degree, self.points.len(), t.clamp(low, high));
         let sum = |order: usize| {
             let terms = self.points[basis.first..].iter().zip(&basis.values[order][..=self.degree]);
             terms.map(|(point, value)| *point * *value).sum::<DVec4>()
@@ -282,8 +290,13 @@ impl Surface {
 
     /// The point and its derivatives.
     pub fn at(&self, uv: DVec2) -> Jet {
+        let is_few = self.degree.iter().all(|degree| *degree < FEW);
+        if is_few { self.at_by::<FEW>(uv) } else { self.at_by::<{ MAX_DEGREE + 1 }>(uv) }
+    }
+
+    fn at_by<const N: usize>(&self, uv: DVec2) -> Jet {
         let uv = self.wrapped(uv);
-        let along = |axis: usize| Basis::new(&self.knots[axis], self.degree[axis], self.counts[axis], uv[axis]);
+        let along = |axis: usize| Basis::<N>::new(&self.knots[axis], self.degree[axis], self.counts[axis], uv[axis]);
         let (along_u, along_v) = (along(0), along(1));
         let mut sums = [DVec4::ZERO; 6];
         for i in 0..=self.degree[0] {
@@ -315,7 +328,7 @@ impl Surface {
     pub fn line(&self, axis: usize, value: f64) -> Curve {
         let at = if axis == 0 { DVec2::new(value, 0.0) } else { DVec2::new(0.0, value) };
         let value = self.wrapped(at)[axis];
-        let basis = Basis::new(&self.knots[axis], self.degree[axis], self.counts[axis], value);
+        let basis = Basis::<{ MAX_DEGREE + 1 }>::new(&self.knots[axis], self.degree[axis], self.counts[axis], value);
         let other = 1 - axis;
         let point = |k: usize| -> DVec4 {
             let index = |i: usize| if axis == 0 { i * self.counts[1] + k } else { k * self.counts[1] + i };
@@ -323,6 +336,14 @@ impl Surface {
         };
         let points = (0..self.counts[other]).map(point).collect();
         Curve { degree: self.degree[other], knots: self.knots[other].clone(), points }
+    }
+
+    /// A hash of all that it follows from.
+    pub fn hash(&self, hasher: &mut impl Hasher) {
+        (self.degree, self.counts, self.closed, self.touching, self.poles).hash(hasher);
+        let points = self.points.iter().flat_map(|point| point.to_array());
+        let numbers = self.knots.iter().flatten().copied().chain(points);
+        numbers.for_each(|number| number.to_bits().hash(hasher));
     }
 
     /// The unit normal `f_u × f_v`; at a pole, that of a point a millionth of the range away from it.
