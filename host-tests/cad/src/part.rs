@@ -3,6 +3,7 @@
 use crate::effort::{Effort, Memory};
 use crate::nurbs::{Curve, Surface};
 use glam::DVec3;
+use std::hash::{Hash as _, Hasher};
 
 /// A part.
 #[derive(Clone, Debug, Default)]
@@ -103,6 +104,14 @@ impl Edge {
         let t = if is_beyond { first + (t - first).rem_euclid(last - first) } else { t };
         let [point, slope, _] = self.curve.at(t);
         [point, slope * (high - low)]
+    }
+
+    /// A hash of its curve and stretch.
+    pub fn hash(&self, hasher: &mut impl Hasher) {
+        let Curve { degree, knots, points } = &self.curve;
+        (degree, knots.len(), self.is_round).hash(hasher);
+        let points = points.iter().flat_map(|point| point.to_array());
+        knots.iter().copied().chain(points).chain(self.range).for_each(|number| number.to_bits().hash(hasher));
     }
 
     /// The share at which it is nearest to a point, and the distance there.

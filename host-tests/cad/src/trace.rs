@@ -6,6 +6,7 @@ use crate::mesh::{Mesh, Side};
 use crate::part::{Face, Part, Use};
 use crate::path::Path;
 use glam::DVec2;
+use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 
 /// A loop as it was traced.
 #[derive(Clone, Debug)]
@@ -31,7 +32,7 @@ pub fn trace(mesh: &Mesh<'_>, face: usize, uses: &[Use], limit: f64) -> Result<T
     let twice = |used: &Use| uses.iter().filter(|other| other.edge == used.edge).count() > 1;
     let first = uses.iter().position(|used| !twice(used)).unwrap_or(0);
     for used in uses[first..].iter().chain(&uses[..first]) {
-        let path = trace_edge(mesh, of, *used, limit)?;
+        let path = traced(mesh, of, *used, limit)?;
         let ends = mesh.part.ends(*used);
         let mut side = Side { wire: Some((used.edge, used.reversed)), ends, path };
         if let Some(last) = sides.last().cloned() {
@@ -130,6 +131,21 @@ fn pole_between(face: &Face, last: &Side, next: &mut Side, period: DVec2) -> Opt
         }
     }
     None
+}
+
+/// The path of an edge, which may be known.
+fn traced(mesh: &Mesh<'_>, face: &Face, used: Use, limit: f64) -> Result<Path, ImportError> {
+    let mut hasher = DefaultHasher::new();
+    ("path", used.reversed, limit.to_bits()).hash(&mut hasher);
+    face.surface.hash(&mut hasher);
+    mesh.part.edges[used.edge].hash(&mut hasher);
+    let (key, memory) = (hasher.finish(), &mesh.part.memory);
+    if let Some(path) = memory.get(key) {
+        return Ok(path);
+    }
+    let path = trace_edge(mesh, face, used, limit)?;
+    memory.keep(key, path.clone());
+    Ok(path)
 }
 
 fn trace_edge(mesh: &Mesh<'_>, face: &Face, used: Use, limit: f64) -> Result<Path, ImportError> {

@@ -9,6 +9,7 @@ use crate::patches::SHARE_OF_EDGES;
 use crate::{outline, trace};
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::FRAC_PI_2;
+use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 
 /// How finely edges are cut, because a face of theirs was too much: 1 and 2 halve the pieces once and twice.
 pub type Fine = BTreeMap<usize, i32>;
@@ -36,7 +37,16 @@ pub fn outlined<'p>(part: &'p Part, fine: &Fine, tolerance: f64) -> Result<Mesh<
             Source::Edge { edge, .. } => fine.get(&edge).copied().unwrap_or(0),
             Source::Inside { .. } => 0,
         };
-        pieces(mesh, wire, level, tolerance)
+        let Source::Edge { edge, range } = mesh.wires[wire].source else { return pieces(mesh, wire, level, tolerance) };
+        let mut hasher = DefaultHasher::new();
+        ("pieces", level, range.map(f64::to_bits), tolerance.to_bits()).hash(&mut hasher);
+        part.edges[edge].hash(&mut hasher);
+        let (key, memory) = (hasher.finish(), &part.memory);
+        memory.get(key).unwrap_or_else(|| {
+            let count = pieces(mesh, wire, level, tolerance);
+            memory.keep(key, count);
+            count
+        })
     };
     cut_bent(&mut mesh, &count, false);
     circles::cut(&mut mesh, &all_turns, &count);
