@@ -45,6 +45,9 @@ pub struct Candidates<'p> {
     /// The region.
     pub plane: &'p Plane,
     seen: Vec<Vec<usize>>,
+    /// Lines that a quad could have as a side, each once, and their numbers by both ends.
+    lines: Vec<[usize; 2]>,
+    numbers: Vec<usize>,
     starting: Vec<Vec<usize>>,
     found: HashMap<Edge, Rc<[Candidate]>>,
     /// Turn of the surface along a straight line of the plane, radians.
@@ -92,6 +95,15 @@ impl<'p> Candidates<'p> {
             list.sort_by(|x, y| far(x).total_cmp(&far(y)));
             list.truncate(LINES);
         }
+        let (mut lines, mut numbers) = (Vec::new(), vec![usize::MAX; count * count]);
+        for (a, list) in seen.iter().enumerate() {
+            for b in list {
+                if numbers[a * count + b] == usize::MAX {
+                    (numbers[a * count + b], numbers[b * count + a]) = (lines.len(), lines.len());
+                    lines.push([a, *b]);
+                }
+            }
+        }
         let mut starting = vec![Vec::new(); count];
         for (index, border) in plane.borders.iter().enumerate() {
             starting[border.ends[0]].push(index);
@@ -99,6 +111,8 @@ impl<'p> Candidates<'p> {
         Self {
             plane,
             seen,
+            lines,
+            numbers,
             starting,
             found: HashMap::new(),
             turn,
@@ -107,6 +121,16 @@ impl<'p> Candidates<'p> {
             triangles,
             effort,
         }
+    }
+
+    /// The lines that a quad could have as a side, each once.
+    pub fn lines(&self) -> &[[usize; 2]] {
+        &self.lines
+    }
+
+    /// The number of the line between two vertices.
+    pub fn number(&self, a: usize, b: usize) -> Option<usize> {
+        Some(self.numbers[a * self.seen.len() + b]).filter(|number| *number != usize::MAX)
     }
 
     /// The vertices at an edge's start and end.

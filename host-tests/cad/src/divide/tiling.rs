@@ -159,12 +159,42 @@ struct Search<'p> {
     quads: Option<Vec<Candidate>>,
     /// On the way: the quads so far, as places in lists.
     laid: Vec<(Rc<[Candidate]>, usize)>,
+    /// The lines that a line rules out, once one was drawn.
+    ruled_out: HashMap<[usize; 2], Bits>,
 }
 
+/// A set of small numbers.
 #[derive(Clone, Default)]
+struct Bits(Vec<u64>);
+
+impl Bits {
+    fn up_to(count: usize) -> Self {
+        Self(vec![0; count.div_ceil(64)])
+    }
+
+    fn has(&self, index: usize) -> bool {
+        self.0[index / 64] >> (index % 64) & 1 == 1
+    }
+
+    fn set(&mut self, index: usize, is_in: bool) {
+        let bit = 1 << (index % 64);
+        if is_in { self.0[index / 64] |= bit } else { self.0[index / 64] &= !bit }
+    }
+
+    fn add(&mut self, others: &Self) {
+        self.0.iter_mut().zip(&others.0).for_each(|(word, other)| *word |= other);
+    }
+}
+
+#[derive(Clone)]
 struct State {
     front: Vec<Edge>,
-    lines: Vec<[usize; 2]>,
+    /// The same by [`Search::index`].
+    waits: Bits,
+    /// Lines that are drawn already, or cross one that is.
+    barred: Bits,
+    /// The points inside that quads use already.
+    used: Bits,
     cost: f64,
 }
 
@@ -177,14 +207,28 @@ impl<'p> Search<'p> {
         effort: &'p Effort,
     ) -> Self {
         let candidates = Candidates::new(plane, turn, triangles, effort);
-        Self { candidates, effort, tries: 0, most, best: f64::INFINITY, quads: None, laid: Vec::new() }
+        let (laid, ruled_out) = (Vec::new(), HashMap::new());
+        Self { candidates, effort, tries: 0, most, best: f64::INFINITY, quads: None, laid, ruled_out }
     }
 
     fn run(mut self, bound: f64) -> Option<(f64, Vec<Candidate>)> {
         self.best = bound;
-        let front = (0..self.candidates.plane.borders.len()).map(Edge::Border).collect();
-        self.step(&State { front, ..State::default() });
+        let Plane { vertices, borders, .. } = self.candidates.plane;
+        let front: Vec<Edge> = (0..borders.len()).map(Edge::Border).collect();
+        let mut waits = Bits::up_to(borders.len() + vertices.len().pow(2));
+        front.iter().for_each(|edge| waits.set(self.index(*edge), true));
+        let barred = Bits::up_to(self.candidates.lines().len());
+        self.step(&State { front, waits, barred, used: Bits::up_to(vertices.len()), cost: 0.0 });
         self.quads.map(|quads| (self.best, quads))
+    }
+
+    /// The place of an edge among all that there could be.
+    fn index(&self, edge: Edge) -> usize {
+        let Plane { vertices, borders, .. } = self.candidates.plane;
+        match edge {
+            Edge::Border(index) => index,
+            Edge::Line(a, b) => borders.len() + a * vertices.len() + b,
+        }
     }
 
     fn step(&mut self, state: &State) {
@@ -200,14 +244,13 @@ impl<'p> Search<'p> {
         {
             return;
         }
-        let used = self.used_inside(state);
         let mut fewest: Option<(Rc<[Candidate]>, Vec<usize>)> = None;
         for edge in &state.front {
             let most = fewest.as_ref().map_or(usize::MAX, |(_, fitting)| fitting.len());
             let all = self.candidates.on(*edge);
             self.effort.spend(all.len() as u64);
             let fitting: Vec<usize> =
-                (0..all.len()).filter(|index| self.fits(state, &used, &all[*index])).take(most).collect();
+                (0..all.len()).filter(|index| self.fits(state, &all[*index])).take(most).collect();
             if fitting.len() < most {
                 let none = fitting.is_empty();
                 fewest = Some((all, fitting));
@@ -224,9 +267,14 @@ impl<'p> Search<'p> {
             for edge in candidate.edges.into_iter().filter(|edge| !edge.is_point()) {
                 if let Some(place) = next.front.iter().position(|waiting| *waiting == edge) {
                     next.front.swap_remove(place);
+                    next.waits.set(self.index(edge), false);
                 } else if let Edge::Line(a, b) = edge {
                     next.front.push(Edge::Line(b, a));
-                    next.lines.push([a, b]);
+                    next.waits.set(self.index(Edge::Line(b, a)), true);
+                    next.barred.add(self.ruled_out([a, b]));
+                    for end in [a, b] {
+                        next.used.set(end, self.candidates.plane.vertices[end].node.is_none());
+                    }
                 }
             }
             next.cost += candidate.cost;
@@ -237,30 +285,31 @@ impl<'p> Search<'p> {
     }
 
     /// Whether a quad's sides wait, or are new lines that cross none, and it lies on no point that others use.
-    fn fits(&self, state: &State, used: &[usize], candidate: &Candidate) -> bool {
-        let point = |k: usize| self.candidates.plane.vertices[k].point;
-        let is_free = |edge: &Edge| {
-            let Edge::Line(a, b) = *edge else { return false };
-            state.lines.iter().all(|[c, d]| {
-                let shared = [a, b].iter().filter(|end| **end == *c || **end == *d).count();
-                match shared {
-                    0 => !crate::outline::meet([point(a), point(b)], [point(*c), point(*d)]),
-                    1 => true,
-                    _ => false,
-                }
-            })
+    fn fits(&self, state: &State, candidate: &Candidate) -> bool {
+        let is_free = |edge: &Edge| match *edge {
+            Edge::Border(_) => false,
+            Edge::Line(a, b) => self.candidates.number(a, b).is_some_and(|line| !state.barred.has(line)),
         };
-        !candidate.covers.iter().any(|point| used.contains(point))
-            && candidate.edges.iter().all(|edge| edge.is_point() || state.front.contains(edge) || is_free(edge))
+        let is_sound = |edge: &Edge| edge.is_point() || state.waits.has(self.index(*edge)) || is_free(edge);
+        candidate.edges.iter().all(is_sound) && !candidate.covers.iter().any(|point| state.used.has(*point))
     }
 
-    /// The points inside that quads use already.
-    fn used_inside(&self, state: &State) -> Vec<usize> {
-        let is_inside = |k: &usize| self.candidates.plane.vertices[*k].node.is_none();
-        let mut used: Vec<usize> = state.lines.iter().flatten().copied().filter(is_inside).collect();
-        used.sort_unstable();
-        used.dedup();
-        used
+    /// A line itself and all that cross it.
+    fn ruled_out(&mut self, [a, b]: [usize; 2]) -> &Bits {
+        let candidates = &self.candidates;
+        let point = |k: usize| candidates.plane.vertices[k].point;
+        self.ruled_out.entry([a.min(b), a.max(b)]).or_insert_with(|| {
+            let mut lines = Bits::up_to(candidates.lines().len());
+            for (index, [c, d]) in candidates.lines().iter().enumerate() {
+                let is_ruled_out = match [a, b].iter().filter(|end| *end == c || *end == d).count() {
+                    0 => crate::outline::meet([point(a), point(b)], [point(*c), point(*d)]),
+                    1 => false,
+                    _ => true,
+                };
+                lines.set(index, is_ruled_out);
+            }
+            lines
+        })
     }
 }
 
