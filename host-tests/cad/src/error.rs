@@ -98,18 +98,27 @@ pub enum ImportError {
         reason: String,
         /// Its place in the part, where dividing it might help.
         index: Option<usize>,
+        /// Whether the whole part takes too many patches, and the face the most of them.
+        is_too_many: bool,
     },
 }
 
 impl ImportError {
     /// About a face.
     pub fn face(face: impl Into<String>, reason: impl Into<String>) -> Self {
-        Self::Face { face: face.into(), reason: reason.into(), index: None }
+        Self::Face { face: face.into(), reason: reason.into(), index: None, is_too_many: false }
     }
 
     /// About a face that was too much at once.
     pub(crate) fn too_much(part: &Part, index: usize, reason: impl Into<String>) -> Self {
-        Self::Face { face: part.faces[index].label(), reason: reason.into(), index: Some(index) }
+        let face = part.faces[index].label();
+        Self::Face { face, reason: reason.into(), index: Some(index), is_too_many: false }
+    }
+
+    /// About the face with the most patches of a part that takes too many.
+    pub(crate) fn too_many(part: &Part, index: usize, reason: impl Into<String>) -> Self {
+        let face = part.faces[index].label();
+        Self::Face { face, reason: reason.into(), index: Some(index), is_too_many: true }
     }
 
     /// Where as much was tried as is worth it; `face` is what the most went into.

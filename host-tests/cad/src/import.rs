@@ -14,6 +14,8 @@ use std::path::Path;
 
 /// How often faces that are too much at once are made easier.
 const ROUNDS: usize = 16;
+/// How often a part of too many patches is tried with an easier face: each time changes some per cent of them.
+const TOO_MANY: usize = 3;
 /// How often what took far more patches than quads is tried otherwise.
 const SECOND_THOUGHTS: usize = 3;
 /// A face with more loops than this, or more edges, is split before it is tried.
@@ -156,11 +158,17 @@ fn lightening(mut part: Part, way: Way, options: &Options) -> Result<Imported, I
     spheres::without_poles(&mut part, way.hollow);
     split_the_large(&mut part, options.tolerance)?;
     let mut fine = Fine::new();
+    let mut too_many = 0;
     for _ in 0..ROUNDS {
         let errors = match divided(&part, &fine, way.triangles, options) {
             Err(errors) => errors,
             Ok(done) => return Ok(fewer(part, &fine, done, way, options)),
         };
+        too_many +=
+            usize::from(errors.iter().any(|error| matches!(error, ImportError::Face { is_too_many: true, .. })));
+        if too_many > TOO_MANY {
+            return Err(first(errors));
+        }
         // From the last, so that the places of those before hold.
         for error in errors.into_iter().rev() {
             let ImportError::Face { index: Some(face), .. } = error else { return Err(error) };

@@ -44,8 +44,11 @@ pub fn make(mesh: &mut Mesh<'_>, tolerance: f64) -> Result<Vec<Made>, Vec<Import
         let count: usize = mesh.regions.iter().map(|region| region.quads.len()).sum();
         if count > MOST {
             let worst = (0..mesh.regions.len()).max_by_key(|face| mesh.regions[*face].quads.len()).unwrap_or(0);
-            let reason = format!("the part takes more than {MOST} patches, most of them here; try a greater tolerance");
-            return Err(vec![ImportError::too_much(mesh.part, worst, reason)]);
+            let reason = format!(
+                "the part takes {count} patches, most of them here, and a body has {MOST} at most: import one solid \
+                 (--solid), leave out small features, or try a greater tolerance"
+            );
+            return Err(vec![ImportError::too_many(mesh.part, worst, reason)]);
         }
         let mut cuts: BTreeSet<usize> = BTreeSet::new();
         let mut raised = false;
