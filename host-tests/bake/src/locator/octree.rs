@@ -189,8 +189,7 @@ impl<'a> Search<'a> {
             seam: self.options.seam * self.size,
             farthest: self.farthest,
             convex: &inherited.convex,
-            // Where the depth is used up this saves samples and divisions. Above, cells would end earlier too.
-            in_plane: last,
+            in_plane: true,
         };
         let left = self.survivors(&inherited.regions, &query);
         let kind = self.kind(&left, &query);
