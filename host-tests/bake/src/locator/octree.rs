@@ -8,10 +8,10 @@ use super::faces::{Faces, Query, Reference, Region};
 use super::list::{Child, Kind, Leaf, Octree};
 use super::list::{Entry, Lister};
 use super::options::LocatorOptions;
-use super::piece::Probes;
+use super::piece::{Piece, Probes};
 use super::sampled::{self, Fault, Sampler, Sampling};
 use super::tables::{StoredLists, list};
-use super::unique::nearest;
+use super::unique::{Subject, nearest};
 use glam::DVec3;
 use palpate::body::{LEAF, MAX_EVALUATIONS, MAX_EVALUATIONS_CONVEX};
 use rayon::prelude::*;
@@ -59,6 +59,9 @@ enum Grown<L> {
 /// A leaf with its list.
 type Done = (Leaf, Vec<Entry>);
 
+/// An entry without a proof, and the regions in it that remain.
+type Doubt<'a> = (Entry, Vec<Region<'a>>);
+
 /// Maximum divisions of a face's remaining part where the proof fails.
 const DIVISIONS: usize = 2;
 
@@ -66,6 +69,9 @@ const DIVISIONS: usize = 2;
 const LOOSE: f64 = 0.01;
 /// Factor of the denser sampling.
 const CLOSER: usize = 4;
+
+/// How often a cell is parted for the proof of its list.
+const PARTED: usize = 2;
 
 /// How often a list that samples show to fail is mended by dividing a rectangle.
 const REPAIRS: usize = 24;
@@ -165,8 +171,7 @@ impl<'a> Search<'a> {
 
     /// Whether anybody asks for a cell; its walls belong to it.
     fn is_wanted(&self, probes: &Probes) -> bool {
-        let half = probes.half * (1.0 + 1e-6);
-        self.wanted.is_none_or(|wanted| wanted.iter().any(|probe| (*probe - probes.centre).abs().cmple(half).all()))
+        self.wanted.is_none_or(|wanted| wanted.iter().any(|probe| probes.holds(*probe)))
     }
 
     /// `corners` are points of the body near its corners.
@@ -239,9 +244,14 @@ impl<'a> Search<'a> {
             let evaluations = if self.options.convex { MAX_EVALUATIONS_CONVEX } else { MAX_EVALUATIONS };
             let (proved, size) = (self.options.tolerance * self.size, self.size as f32);
             let sampling = Sampling { count, evaluations, proved, tolerance: (0.2 * proved) as f32, size };
-            let mut sampler = Sampler::new(self.faces, probes, &inherited.regions, &entries, sampling);
+            let in_reach = sampling.reaches(&entries);
+            let parts = || self.open_parts(&probes, &entries, &inherited.regions, &inherited.convex);
+            let open = if in_reach { parts() } else { None };
+            let is_open = open.as_ref().is_none_or(|parts| !parts.is_empty());
+            let sampler = || Sampler::new(self.faces, probes, &inherited.regions, &entries, sampling, open);
+            let mut sampler = is_open.then(sampler);
             for repair in 1..=REPAIRS {
-                let Some(fault) = sampler.fault(&entries) else { break };
+                let Some(fault) = sampler.as_mut().and_then(|sampler| sampler.fault(&entries)) else { break };
                 let is_mended = match fault {
                     Fault::Nearer(point) => repair < REPAIRS && sampled::divide(&mut entries, point),
                     Fault::Spent => false,
@@ -259,6 +269,85 @@ impl<'a> Search<'a> {
         });
         let leaf = Leaf { centre: probes.centre, half: probes.half.x, depth, kind, minima, proved };
         Ok((leaf, entries))
+    }
+
+    /// The parts of a cell for which a list is not proved: an entry needs no proof for probes whose closest point lies
+    /// elsewhere. `None` unless all entries without a proof are of plane faces: on others searches are slow near a
+    /// centre of curvature, and few are proved.
+    pub(super) fn open_parts(
+        &self,
+        cell: &Probes,
+        entries: &[Entry],
+        regions: &[Region<'a>],
+        convex: &[(u16, Rectangle)],
+    ) -> Option<Vec<Probes>> {
+        let tolerance = self.options.tolerance * self.size;
+        let unproved = || entries.iter().filter(|entry| !entry.minima.is_proved(tolerance));
+        let is_plane = |piece: &Piece| piece.curvature * self.farthest < 1.0;
+        if !unproved().all(|entry| self.faces.spans[usize::from(entry.face)].iter().all(is_plane)) {
+            return None;
+        }
+        let doubt = |entry: &Entry| {
+            let is_held = |region: &&Region<'a>| {
+                let around = || Rectangle::around(region.rectangle(self.faces));
+                region.face(self.faces) == entry.face && entry.rectangle.holds(&around())
+            };
+            (*entry, regions.iter().filter(is_held).copied().collect())
+        };
+        let doubts: Vec<Doubt<'a>> = unproved().map(doubt).collect();
+        let near: Vec<_> = (0..8).filter_map(|corner| self.faces.reference(cell.corner(corner))).collect();
+        let mut open = Vec::new();
+        self.add_open_parts(cell, &doubts, &near, convex, 1, &mut open);
+        Some(open)
+    }
+
+    fn add_open_parts(
+        &self,
+        cell: &Probes,
+        doubts: &[Doubt<'a>],
+        near: &[Reference],
+        convex: &[(u16, Rectangle)],
+        depth: usize,
+        open: &mut Vec<Probes>,
+    ) {
+        let half = 0.5 * cell.half;
+        let quarter = Probes { centre: cell.centre, half };
+        for probes in (0..8).map(|index| Probes { centre: quarter.corner(index), half }) {
+            let own = self.faces.reference(probes.centre);
+            let references: Vec<_> = own.into_iter().chain(near.iter().copied()).collect();
+            let (seam, farthest) = (self.options.seam * self.size, self.farthest);
+            let query = Query { probes, references: &references, seam, farthest, convex, in_plane: true };
+            let is_open = |(entry, regions): &&Doubt<'a>| {
+                let Entry { face, rectangle, .. } = *entry;
+                regions.iter().any(|region| self.survives(region, &query))
+                    && !Subject { faces: self.faces, face, rectangle, query: &query }.is_unique()
+            };
+            if depth == PARTED {
+                if doubts.iter().any(|doubt| is_open(&doubt)) {
+                    open.push(probes);
+                }
+                continue;
+            }
+            let left: Vec<Doubt<'a>> = (doubts.iter().filter(is_open))
+                .map(|(entry, regions)| {
+                    let left = regions.iter().filter(|region| self.survives(region, &query));
+                    (*entry, left.copied().collect())
+                })
+                .collect();
+            if !left.is_empty() {
+                self.add_open_parts(&probes, &left, &references, convex, depth + 1, open);
+            }
+        }
+    }
+
+    /// Whether some part of a region remains.
+    fn survives(&self, region: &Region<'a>, query: &Query<'_>) -> bool {
+        if query.excludes(region, self.faces) {
+            return false;
+        }
+        let is_large = region.diameter() > self.options.fineness * query.probes.radius();
+        let divided = if is_large { region.divided() } else { None };
+        divided.is_none_or(|parts| parts.iter().any(|part| self.survives(part, query)))
     }
 
     /// The remaining parts of some regions, divided to a depth that suits the cell.

@@ -281,6 +281,11 @@ impl Probes {
         self.half.length()
     }
 
+    /// Whether a probe is one of them, or beside them by rounding.
+    pub(crate) fn holds(&self, probe: DVec3) -> bool {
+        (probe - self.centre).abs().cmple(self.half * (1.0 + 1e-6)).all()
+    }
+
     /// The corner of an index in `0..8`, a bit an axis.
     pub(crate) fn corner(&self, index: usize) -> DVec3 {
         let side = |bit: usize| if index & bit == 0 { -1.0 } else { 1.0 };

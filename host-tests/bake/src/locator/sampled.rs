@@ -51,6 +51,13 @@ pub(super) struct Sampling {
     pub size: f32,
 }
 
+impl Sampling {
+    /// Whether a search always has evaluations for all entries of a list.
+    pub(super) fn reaches(&self, entries: &[Entry]) -> bool {
+        entries.len() <= in_reach(self.evaluations)
+    }
+}
+
 /// Probes of a cell, and what its list is compared with.
 pub(super) struct Sampler<'a> {
     faces: &'a Faces,
@@ -59,6 +66,8 @@ pub(super) struct Sampler<'a> {
     random: Random,
     /// Those that have to pass one after another, the same for every list.
     drawn: Vec<Vec3>,
+    /// Parts of the cell; probes elsewhere are proved to pass. `None` if none are.
+    open: Option<Vec<Probes>>,
     next: usize,
     /// That a search may cost.
     evaluations: u16,
@@ -74,10 +83,12 @@ impl<'a> Sampler<'a> {
         probes: Probes,
         regions: &[Region<'_>],
         entries: &[Entry],
-        Sampling { count, evaluations, proved, tolerance, size }: Sampling,
+        sampling: Sampling,
+        open: Option<Vec<Probes>>,
     ) -> Self {
         // A longer list may be left before a proved entry has its turn.
-        let all_in_reach = entries.len() <= in_reach(evaluations);
+        let all_in_reach = sampling.reaches(entries);
+        let Sampling { count, evaluations, proved, tolerance, size } = sampling;
         let proved: Vec<_> = entries.iter().filter(|entry| all_in_reach && entry.minima.is_proved(proved)).collect();
         let is_open = |region: &Region<'_>| {
             let (face, around) = (region.face(faces), Rectangle::around(region.rectangle(faces)));
@@ -91,6 +102,7 @@ impl<'a> Sampler<'a> {
             starts: Starts::new(faces, regions.iter().filter(|region| is_open(region))),
             random,
             drawn,
+            open,
             next: 0,
             evaluations,
             tolerance,
@@ -105,7 +117,10 @@ impl<'a> Sampler<'a> {
         let list: Vec<_> = tables::list(entries).into_iter().map(Candidate::unpack).collect();
         for _ in 0..self.drawn.len() {
             let probe = self.drawn[self.next];
-            if let Some(fault) = self.fault_at(&list, probe) {
+            let is_open = self.open.as_ref().is_none_or(|open| open.iter().any(|part| part.holds(probe.as_dvec3())));
+            if is_open && let Some(fault) = self.fault_at(&list, probe) {
+                // The list will be another one.
+                self.open = None;
                 for _ in 0..ABOUT {
                     let reach = self.probes.half * self.random.scale(NEAREST_ABOUT, FARTHEST_ABOUT);
                     let place = DVec3::from_array(std::array::from_fn(|_| self.random.between(-1.0, 1.0)));
@@ -294,7 +309,7 @@ mod tests {
                 };
                 let entries: Vec<_> = (0..patches.len() as u16).filter_map(entry).collect();
                 let sampling = Sampling { count: 64, evaluations: 512, proved: 0.0, tolerance: 1e-6, size: 0.06 };
-                Sampler::new(&faces, around, &faces.regions(), &entries, sampling).fault(&entries)
+                Sampler::new(&faces, around, &faces.regions(), &entries, sampling, None).fault(&entries)
             };
             for others in [Minima::One, Minima::Unknown] {
                 assert!(fault(Some([GRID as u8; 2]), others).is_none());

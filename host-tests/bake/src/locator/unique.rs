@@ -101,6 +101,10 @@ impl Subject<'_> {
 
     /// Whether there is one minimum, with no bound of the loss if not.
     pub(super) fn is_unique(&self) -> bool {
+        let Rectangle { lower, upper } = self.rectangle;
+        if (0..2).any(|axis| lower[axis] == upper[axis]) {
+            return matches!(self.proof(), Proof::Minima(Minima::Convex));
+        }
         let pieces = &self.faces.spans[usize::from(self.face)];
         pieces.iter().all(|piece| self.has_strict_minima(piece))
     }
@@ -397,7 +401,9 @@ pub(super) fn nearest(region: &Region<'_>, query: &Query<'_>, faces: &Faces) -> 
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Seams, StoredSurface};
+    use super::super::list::Entry;
+    use super::super::octree::Search;
+    use super::super::{LocatorOptions, Seams, StoredSurface};
     use super::*;
     use crate::{BakedPatch, Model};
     use palpate::body::GRID;
@@ -453,6 +459,45 @@ mod tests {
             let apart = apart.fold(0.0, f64::max);
             assert_eq!(apart < 1e-6, is_one, "{x}: {apart}");
         }
+        Ok(())
+    }
+
+    /// Against descents from a grid of starts, beside the hole's axis and out to it.
+    #[test]
+    fn one_minimum_is_left_to_probes_of_no_open_part() -> Result<(), Box<dyn Error>> {
+        let patch = quarter(0.0)?;
+        let surface = StoredSurface::new(&patch);
+        let seams = Seams::find(std::slice::from_ref(&surface), 1e-9);
+        let faces = Faces::new(&[patch], seams, &[[Vec::new(), Vec::new()]], 0.1).ok_or("a weight")?;
+        let options = &LocatorOptions::one_patch();
+        let search = Search { faces: &faces, options, size: 0.01, farthest: 0.02, wanted: None };
+        let cell = Probes::cube(DVec3::new(1e-3, -1.2e-3, 1.6e-3), 2e-3);
+        let whole = |upper: [u8; 2]| Entry {
+            face: 0,
+            rectangle: Rectangle { lower: [0; 2], upper },
+            minima: Minima::Unknown,
+            distance: 0.0,
+        };
+        let open = |entry: Entry| search.open_parts(&cell, &[entry], &faces.regions(), &[]).ok_or("not plane");
+        let parts = open(whole([GRID as u8; 2]))?;
+        // By whether its part is open, whether probes lead to several minima.
+        let mut several = [[0, 0]; 2];
+        for place in 0..16_i32.pow(3) {
+            let at =
+                DVec3::from_array([place % 16, place / 16 % 16, place / 256].map(|step| f64::from(step) / 7.5 - 1.0));
+            let probe = cell.centre + cell.half * at;
+            let ends = (0..25).map(|start| {
+                let start = [start / 5, start % 5].map(|step| f64::from(step) / 4.0);
+                surface.descend(probe, start, [[0.0; 2], [1.0; 2]]).point
+            });
+            let ends: Vec<_> = ends.collect();
+            let is_one = ends.iter().all(|end| end.distance(ends[0]) < 1e-6);
+            several[usize::from(parts.iter().any(|part| part.holds(probe)))][usize::from(!is_one)] += 1;
+        }
+        println!("not open, open: one minimum, several: {several:?}");
+        assert!(several[0][0] > 1000 && several[0][1] == 0 && several[1][1] > 100);
+        // The rim alone, around its own centre of curvature, is not convex.
+        assert!(!open(whole([GRID as u8, 0]))?.is_empty());
         Ok(())
     }
 
