@@ -91,6 +91,7 @@ mod mailbox;
 mod option_bytes;
 mod outbox;
 mod parts;
+mod program_check;
 mod reset;
 pub mod sensors;
 mod set_up;
@@ -121,6 +122,7 @@ pub use lines::{Divider, EnableInput, Lines, NoSupply, OneChannel, Pressed, Supp
 pub use mailbox::Mailbox;
 pub use option_bytes::OptionBytes;
 pub use parts::{Parts, Timer};
+pub use program_check::{Copied, ProgramChanged, ProgramCheck};
 pub use reset::{Cause, Memo, ResetFlags};
 pub use set_up::JogSettings;
 pub use settings::Settings;

@@ -1,7 +1,32 @@
-//! The program's copies in RAM against their images in flash.
+//! The program's copies in RAM and their images in flash, as they lie in memory.
 
+use crate::program_check::{self, Copied};
 use core::hint::black_box;
 use core::ptr::read_volatile;
+
+/// The check of the program's copies. A program that changed panics: the motors are off at once.
+#[derive(Debug)]
+pub struct ProgramCheck<const COPIES: usize>(program_check::ProgramCheck<ProgramCopy, COPIES>);
+
+impl<const COPIES: usize> ProgramCheck<COPIES> {
+    /// The check of these copies.
+    pub const fn new(copies: [ProgramCopy; COPIES]) -> Self {
+        Self(program_check::ProgramCheck::new(copies))
+    }
+
+    /// The first pass, before anything is driven.
+    pub fn all(&mut self) {
+        while self.step() {}
+    }
+
+    /// A turn of main: compares a word; false after the last of all.
+    pub fn step(&mut self) -> bool {
+        match self.0.step() {
+            Ok(goes_on) => goes_on,
+            Err(wrong) => panic!("{wrong}"),
+        }
+    }
+}
 
 /// A copy in RAM, and the image that it was made of.
 #[derive(Clone, Copy, Debug)]
@@ -23,41 +48,11 @@ impl ProgramCopy {
     }
 }
 
-/// The check of all copies, in turn. A word that changed in either place is found with the next pass.
-#[derive(Debug)]
-pub struct ProgramCheck<const COPIES: usize> {
-    copies: [ProgramCopy; COPIES],
-    copy: usize,
-    at: usize,
-}
-
-impl<const COPIES: usize> ProgramCheck<COPIES> {
-    /// The check of these copies.
-    pub const fn new(copies: [ProgramCopy; COPIES]) -> Self {
-        Self { copies, copy: 0, at: 0 }
-    }
-
-    /// The first pass, before anything is driven.
-    pub fn all(&mut self) {
-        while self.step() {}
-    }
-
-    /// A turn of main: compares a word; false after the last of all. A program that changed panics: the motors are off
-    /// at once.
-    pub fn step(&mut self) -> bool {
-        let Some(&ProgramCopy { start, end, image }) = self.copies.get(self.copy) else {
-            (self.copy, self.at) = (0, 0);
-            return false;
-        };
-        let word = start.wrapping_add(self.at);
-        if word >= end {
-            (self.copy, self.at) = (self.copy + 1, 0);
-            return true;
-        }
+impl Copied for ProgramCopy {
+    #[inline]
+    fn words(&self, at: usize) -> Option<[u32; 2]> {
+        let word = self.start.wrapping_add(at);
         // SAFETY: within the copy and its image, as promised above.
-        let is_same = unsafe { read_volatile(word) == read_volatile(image.wrapping_add(self.at)) };
-        assert!(is_same, "the program in RAM differs from its image");
-        self.at += 1;
-        true
+        (word < self.end).then(|| unsafe { [read_volatile(word), read_volatile(self.image.wrapping_add(at))] })
     }
 }
