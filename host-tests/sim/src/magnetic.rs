@@ -1,8 +1,7 @@
 //! AS5047P sensors at the other end of a bus: a model that minds its data sheet's times, and whose failures a test plants.
 
 use embedded_hal::digital::{ErrorType as PinErrorType, OutputPin};
-use embedded_hal::spi::{ErrorKind, ErrorType as BusErrorType, SpiBus};
-use palpate_bench::sensors::Angles;
+use palpate_bench::sensors::{Angles, Bounded, Controller};
 use palpate_bench::{Counter, CycleDelay};
 use std::cell::RefCell;
 use std::convert::Infallible;
@@ -60,6 +59,8 @@ pub struct Table {
     look: u64,
     /// The sensors.
     pub chips: Vec<Chip>,
+    /// Whether the bus's controller reports the end of a frame.
+    pub finishes: bool,
     last_clock: u64,
     /// Frames so far.
     pub frames: u32,
@@ -130,31 +131,11 @@ pub type SharedTable = Rc<RefCell<Table>>;
 #[derive(Debug)]
 pub struct Bus(SharedTable);
 
-impl BusErrorType for Bus {
-    type Error = ErrorKind;
-}
-
-impl SpiBus for Bus {
-    fn read(&mut self, _: &mut [u8]) -> Result<(), ErrorKind> {
-        unreachable!()
-    }
-
-    fn write(&mut self, _: &[u8]) -> Result<(), ErrorKind> {
-        unreachable!()
-    }
-
-    fn transfer(&mut self, _: &mut [u8], _: &[u8]) -> Result<(), ErrorKind> {
-        unreachable!()
-    }
-
-    fn transfer_in_place(&mut self, words: &mut [u8]) -> Result<(), ErrorKind> {
-        let [high, low] = words else { panic!("{words:?} is no frame") };
-        [*high, *low] = self.0.borrow_mut().exchange(u16::from_be_bytes([*high, *low])).to_be_bytes();
-        Ok(())
-    }
-
-    fn flush(&mut self) -> Result<(), ErrorKind> {
-        Ok(())
+impl Controller for Bus {
+    fn exchange(&mut self, frame: [u8; 2]) -> Option<[u8; 2]> {
+        let mut table = self.0.borrow_mut();
+        let answer = table.exchange(u16::from_be_bytes(frame)).to_be_bytes();
+        table.finishes.then_some(answer)
     }
 }
 
@@ -192,7 +173,7 @@ impl Counter for Cycles {
 }
 
 /// The boards' driver on that bus.
-pub type Joints<const JOINTS: usize = 3> = Angles<Bus, Select, CycleDelay<Cycles>, JOINTS>;
+pub type Joints<const JOINTS: usize = 3> = Angles<Bounded<Bus>, Select, CycleDelay<Cycles>, JOINTS>;
 
 /// Sensors at rest at angle zero that were just switched on, and their driver on a core of `frequency` Hz, to
 /// which a look at its counter takes `look` cycles.
@@ -217,12 +198,13 @@ pub fn table<const JOINTS: usize>(frequency: u32, look: u64) -> (SharedTable, Jo
         frequency: f64::from(frequency),
         look,
         chips: vec![chip; JOINTS],
+        finishes: true,
         last_clock: 0,
         frames: 0,
         least: [f64::INFINITY; 3],
     }));
     let selects = core::array::from_fn(|joint| Select(Rc::clone(&shared), joint));
     let delay = CycleDelay::new(Cycles(Rc::clone(&shared)), frequency);
-    let joints = Angles::new(Bus(Rc::clone(&shared)), selects, delay, [4_096; JOINTS]);
+    let joints = Angles::new(Bounded(Bus(Rc::clone(&shared))), selects, delay, [4_096; JOINTS]);
     (shared, joints)
 }

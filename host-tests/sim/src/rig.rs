@@ -9,7 +9,8 @@ use palpate::device::drive::{SetPointDrive, SetPointRange};
 use palpate::device::{Counts, Kinematics, StopSearch, SupplyRange};
 use palpate::math::vec3;
 use palpate::patch::SplinePatch;
-use palpate::servo::{Fault, Guard, Heartbeat, PatchWitness, Phase, ResetReason, Servo, ServoState, Unguarded};
+use palpate::scene::Commanded;
+use palpate::servo::{Fault, Guard, Heartbeat, Phase, ResetReason, Servo, ServoState, Unguarded};
 use palpate::wire::telemetry::{Consumer, Queue};
 use palpate::wire::{HostMessage, PROTOCOL, Record, frame};
 use palpate_bench::sensors::{BadFrame, Counters, Readings, Sensors, max_step};
@@ -66,6 +67,10 @@ pub struct World {
     pub supply: f32,
     /// The converter's reading of that voltage in this tick; `None` if it fails.
     pub measured: fn(f32) -> Option<f32>,
+    /// Whether a conversion that is started ends.
+    pub converts: bool,
+    /// The converter's reading of the chip's own reference, as a fraction of the right one.
+    pub reference: f32,
     /// Number of frames to come that are bad.
     pub bad: u32,
     /// The kind of the bad frames.
@@ -88,6 +93,8 @@ pub struct World {
     pub is_enable_shorted: bool,
     /// Whether each motor's winding is open.
     pub open_windings: [bool; 3],
+    /// Whether the timer of the set-points has opened its outputs, without the program.
+    pub outputs_open: bool,
     /// Level of the LED's line.
     pub light: bool,
     /// Value of its counter.
@@ -110,7 +117,7 @@ impl World {
     /// The motors' currents, by the amplifiers' own configuration: 10 % is full current backwards, 90 % forwards.
     pub fn currents(&self) -> [f64; 3] {
         core::array::from_fn(|joint| {
-            let is_driven = self.enables[joint] && self.is_powered() && self.amplifiers_well;
+            let is_driven = self.enables[joint] && !self.outputs_open && self.is_powered() && self.amplifiers_well;
             if is_driven && !self.open_windings[joint] {
                 ((self.widths[joint] - 0.5) / 0.4).clamp(-1.0, 1.0)
             } else {
@@ -195,15 +202,21 @@ impl Timer for Interrupts {
     fn acknowledge(&mut self) {}
 }
 
-impl Supply for Volts {
-    fn volts(&mut self) -> Option<f32> {
-        let world = self.0.borrow();
-        (world.measured)(world.supply)
-    }
+/// The measurement of the supply: as on the boards, a conversion is read in the tick after the one that starts it, and
+/// counts if it is over and found the chip's own reference within a tenth.
+pub struct Volts {
+    world: Shared,
+    is_good: bool,
 }
 
-/// The measurement of the supply.
-pub struct Volts(Shared);
+impl Supply for Volts {
+    fn volts(&mut self) -> Option<f32> {
+        let world = self.world.borrow();
+        let was_good = self.is_good;
+        self.is_good = world.converts && (world.reference - 1.0).abs() <= 0.1;
+        if was_good { (world.measured)(world.supply) } else { None }
+    }
+}
 
 /// Three 16-bit timers.
 pub struct Timers(Shared);
@@ -317,22 +330,23 @@ impl Watchdog for Unwatched {
 }
 
 /// A servo that a test made, whether it could not be made with the calibration that is kept, and its wiring.
-pub struct Made<K: 'static, G = Unguarded, const JOINTS: usize = 3>(
-    pub Servo<'static, SplinePatch<'static>, K, JOINTS, G>,
+pub struct Made<K: 'static, G = Unguarded, const JOINTS: usize = 3, S: 'static = SplinePatch<'static>>(
+    pub Servo<'static, S, K, JOINTS, G>,
     pub bool,
     pub Wiring<JOINTS>,
 );
 
-impl<K, G, const JOINTS: usize> Felt<JOINTS> for Made<K, G, JOINTS>
+impl<K, G, const JOINTS: usize, S> Felt<JOINTS> for Made<K, G, JOINTS, S>
 where
     K: Kinematics<JOINTS> + 'static,
     G: Guard<JOINTS> + 'static,
+    S: Commanded + 'static,
 {
-    type Surface = SplinePatch<'static>;
+    type Surface = S;
     type Mechanism = K;
     type Guard = G;
 
-    fn servo(&self) -> &Servo<'static, SplinePatch<'static>, K, JOINTS, G> {
+    fn servo(&self) -> &Servo<'static, S, K, JOINTS, G> {
         &self.0
     }
 
@@ -346,11 +360,16 @@ where
 }
 
 /// The loop on the simulated bench.
-pub struct Rig<K: Kinematics<JOINTS> + 'static, G: Guard<JOINTS> + 'static = Unguarded, const JOINTS: usize = 3> {
+pub struct Rig<
+    K: Kinematics<JOINTS> + 'static,
+    G: Guard<JOINTS> + 'static = Unguarded,
+    const JOINTS: usize = 3,
+    S: Commanded + 'static = SplinePatch<'static>,
+> {
     /// The far side of the pins.
     pub world: Shared,
     /// The loop.
-    pub bench: Bench<'static, Made<K, G, JOINTS>, SimulatedBoard<JOINTS>, JOINTS>,
+    pub bench: Bench<'static, Made<K, G, JOINTS, S>, SimulatedBoard<JOINTS>, JOINTS>,
     /// Commands to the loop.
     pub mailbox: &'static Mailbox,
     records: Option<Consumer<'static, Record>>,
@@ -385,8 +404,8 @@ pub fn held_at(place: Vector) -> Plant {
 }
 
 /// A device at the pins of a board.
-pub fn wired<K: Kinematics<JOINTS> + 'static, G: Guard<JOINTS> + 'static, const JOINTS: usize>(
-    servo: &Servo<'static, SplinePatch<'static>, K, JOINTS, G>,
+pub fn wired<S, K: Kinematics<JOINTS> + 'static, G: Guard<JOINTS> + 'static, const JOINTS: usize>(
+    servo: &Servo<'static, S, K, JOINTS, G>,
     plant: Plant,
     settings: &Settings,
 ) -> (Shared, SimulatedBoard<JOINTS>) {
@@ -399,6 +418,8 @@ pub fn wired<K: Kinematics<JOINTS> + 'static, G: Guard<JOINTS> + 'static, const 
         amplifiers_well: true,
         supply: 24.0,
         measured: Some,
+        converts: true,
+        reference: 1.0,
         bad: 0,
         kind: BadFrame::Damaged,
         bad_of: [0, 1],
@@ -410,12 +431,23 @@ pub fn wired<K: Kinematics<JOINTS> + 'static, G: Guard<JOINTS> + 'static, const 
         enables: [false; 3],
         is_enable_shorted: false,
         open_windings: [false; 3],
+        outputs_open: false,
         light: false,
         // Near its end, so that it wraps.
         cycles: u32::MAX - 1_000,
     };
     let world = Rc::new(RefCell::new(world));
-    let of = || Rc::clone(&world);
+    let board = pins(&world, servo, settings);
+    (world, board)
+}
+
+/// A board at the pins of a device.
+fn pins<S, K: Kinematics<JOINTS> + 'static, G: Guard<JOINTS> + 'static, const JOINTS: usize>(
+    world: &Shared,
+    servo: &Servo<'static, S, K, JOINTS, G>,
+    settings: &Settings,
+) -> SimulatedBoard<JOINTS> {
+    let of = || Rc::clone(world);
     let device = servo.device();
     let steps = device
         .encoders
@@ -440,7 +472,7 @@ pub fn wired<K: Kinematics<JOINTS> + 'static, G: Guard<JOINTS> + 'static, const 
         let world = at_pins.borrow();
         world.is_enable_shorted || world.enables != [false; 3]
     });
-    let board = Parts {
+    Parts {
         counter: SimulatedClock(of()),
         timer: Interrupts,
         sensors: Spoilt { world: of(), reader: Reader::Counters(Counters::new(Timers(of()), steps)), ahead: None },
@@ -456,36 +488,51 @@ pub fn wired<K: Kinematics<JOINTS> + 'static, G: Guard<JOINTS> + 'static, const 
             ),
             stop: In(of(), |world| world.stop_open),
             ready: core::array::from_fn(|joint| In(of(), ready[joint])),
-            supply: Volts(of()),
+            supply: Volts { world: of(), is_good: true },
         },
         light: Out(of(), |world, level| world.light = level),
-    };
-    (Rc::clone(&world), board)
+    }
 }
 
-impl<K: Kinematics<JOINTS> + 'static, G: Guard<JOINTS> + 'static, const JOINTS: usize> Rig<K, G, JOINTS> {
+impl<K: Kinematics<JOINTS> + 'static, G: Guard<JOINTS> + 'static, const JOINTS: usize, S: Commanded + 'static>
+    Rig<K, G, JOINTS, S>
+{
     /// A servo at the pins of a board that was reset for this reason.
     ///
     /// # Panics
     /// As [`Bench::new`].
-    pub fn new(
-        servo: Servo<'static, SplinePatch<'static>, K, JOINTS, G>,
-        plant: Plant,
-        settings: &Settings,
-        reset: ResetReason,
-    ) -> Self {
+    pub fn new(servo: Servo<'static, S, K, JOINTS, G>, plant: Plant, settings: &Settings, reset: ResetReason) -> Self {
         Self::made(Made(servo, false, Wiring::STRAIGHT), plant, settings, reset)
     }
 
     /// As [`Rig::new`], of a servo that was made with a calibration or without.
-    pub fn made(made: Made<K, G, JOINTS>, plant: Plant, settings: &Settings, reset: ResetReason) -> Self {
+    pub fn made(made: Made<K, G, JOINTS, S>, plant: Plant, settings: &Settings, reset: ResetReason) -> Self {
         let (world, board) = wired(&made.0, plant, settings);
+        Self::at(world, made, board, settings, reset)
+    }
+
+    fn at(
+        world: Shared,
+        made: Made<K, G, JOINTS, S>,
+        board: SimulatedBoard<JOINTS>,
+        settings: &Settings,
+        reset: ResetReason,
+    ) -> Self {
         // They live as long as the test, as a board's statics do.
         let mailbox: &'static Mailbox = Box::leak(Box::new(Mailbox::new()));
         let queue: &'static mut Queue<Record, 4_096> = Box::leak(Box::new(Queue::new()));
         let (producer, records) = queue.split();
         let bench = Bench::new(made, board, settings, reset, producer, mailbox);
         Self { world, bench, mailbox, records: Some(records) }
+    }
+
+    /// The board is reset and starts again at the same device: its lines rest, and the amplifiers are disabled.
+    pub fn restart(&mut self, settings: &Settings, reset: ResetReason) {
+        self.set(|world| (world.enables, world.widths, world.outputs_open) = ([false; 3], [0.5; 3], false));
+        let servo = *self.bench.felt().servo();
+        let board = pins(&self.world, &servo, settings);
+        let made = Made(servo, self.bench.felt().is_miscalibrated(), self.bench.felt().wiring());
+        *self = Self::at(Rc::clone(&self.world), made, board, settings, reset);
     }
 
     /// Magnetic sensors in the place of the counters, started; their failures are planted in the table.
@@ -560,13 +607,14 @@ impl<K: Kinematics<JOINTS> + 'static, G: Guard<JOINTS> + 'static, const JOINTS: 
         change(&mut self.world.borrow_mut());
     }
 
-    /// Whether every amplifier is disabled.
+    /// Whether every amplifier is disabled, or no set-point reaches any.
     pub fn is_off(&self) -> bool {
-        self.world.borrow().enables == [false; 3]
+        let world = self.world.borrow();
+        world.outputs_open || world.enables == [false; 3]
     }
 
     /// The servo's state.
-    pub fn state(&self) -> &ServoState<JOINTS, PatchWitness, G::State> {
+    pub fn state(&self) -> &ServoState<JOINTS, S::Witness, G::State> {
         self.bench.state()
     }
 

@@ -114,7 +114,11 @@ fn kept<T>(what: T) -> &'static T {
     Box::leak(Box::new(what))
 }
 
-fn capped_box() -> anyhow::Result<&'static Body<'static>> {
+/// The boards' default body, as a file holds it.
+///
+/// # Errors
+/// A bug of this program.
+pub fn capped_box() -> anyhow::Result<&'static Body<'static>> {
     let head = FileHead::of(&BOX.0)?;
     let faces = Box::leak(vec![Face::VACANT; head.faces].into_boxed_slice());
     let edges = Box::leak(vec![Edge::VACANT; head.edges].into_boxed_slice());

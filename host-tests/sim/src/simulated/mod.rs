@@ -6,7 +6,7 @@ mod device;
 mod hand;
 
 pub use board::{AtPins, CLOCK_HZ, NoWatchdog, Pins, SimulatedBench, SimulatedBoard, Ticks, Wire};
-pub use device::{Kind, Simulated};
+pub use device::{Kind, Simulated, capped_box};
 pub use hand::Hand;
 
 /// The code in the documents: compiled with the doctests.
