@@ -62,10 +62,17 @@ fn print(row: &Failure, subject: &Subject) -> bool {
         return true;
     }
     let excuse = row.excuse(subject);
+    if let Some(found) = row.plant_on_knob() {
+        let is_as_stated = row.is_as_stated_of(found.off_ms, found.fault);
+        let time = found.off_ms.map_or_else(|| "never".to_owned(), |time| time.to_string());
+        let fault = found.fault.map_or_else(|| "none".to_owned(), |fault| format!("{}: {fault}", fault.code()));
+        let verdict = if is_as_stated { "on a knob: off, " } else { "NOT AS STATED: " };
+        println!("{head}{:>12}{time:>10}{:>10.1}°  {verdict}{fault}", row.within_ms, found.motion_degrees);
+        return is_as_stated;
+    }
     let Some(found) = found else {
-        let says = excuse.map_or_else(|| format!("test {}", row.test), |excuse| format!("not detected: {excuse}"));
-        println!("{head}{:>12}{:>21}  {says}", row.within_ms, "");
-        return true;
+        println!("{head}{:>12}{:>21}  not detected: {}", row.within_ms, "", excuse.unwrap_or("it cannot be planted"));
+        return excuse.is_some();
     };
     let Found { off_ms, fault, .. } = found;
     let time = off_ms.map_or_else(|| "never".to_owned(), |time| time.to_string());

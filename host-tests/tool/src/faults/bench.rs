@@ -1,24 +1,33 @@
 //! A simulated device on a bench, in which failures are planted.
 
+use super::chip::{Chip, ChipFailures};
 use super::{Change, Found, Setting};
 use crate::devices::{Preset, ShippedDevice};
+use palpate::body::{Body, TableCursor};
 use palpate::commission::Wiring;
 use palpate::device::{Counts, Device, Homing, Kinematics, ProbePose, Protection, Reference, SupplyRange};
 use palpate::math::Vec3;
-use palpate::servo::{Config, Guard, Phase, ResetReason, Safety, Servo};
+use palpate::patch::SplinePatch;
+use palpate::scene::Commanded;
+use palpate::servo::{BakedTables, Config, Guard, PatchWitness, Phase, ResetReason, Safety, Servo, Surface, Touched};
+use palpate::track::{Controller, Probe};
 use palpate::wire::HostMessage;
 use palpate_bench::Settings;
 use palpate_sim::feel::wall;
 use palpate_sim::magnetic::{SharedTable, Table};
 use palpate_sim::plant::{Direction, HandPath, HandSettings, MechanismSettings, Plant, PlantSettings, Vector};
 use palpate_sim::rig::{CLOCK, Made, RATE, Rig, World};
+use palpate_sim::simulated::capped_box;
 use std::cell::{Cell, RefMut};
 use std::rc::Rc;
 
 /// Ticks in a millisecond.
 const TICKS_PER_MS: f64 = RATE / 1_000.0;
-/// Ticks after which a failure counts as not detected.
+/// Ticks after which a failure counts as not detected, and with the check of tables, whose two passes take longer.
 const PATIENCE: u32 = 12_000;
+const PATIENCE_WITH_TABLES: u32 = 30_000;
+/// Ticks for which a program that does not start is watched.
+const NO_START: u32 = 2_000;
 /// Ticks after the motors are off, in which a fault may follow a hold.
 const AFTER: u32 = 400;
 /// Steps of the plant in a tick: enough for a polarity check's pulses of 8 ms.
@@ -48,6 +57,10 @@ pub struct Touch<'a> {
     pub sends: Vec<HostMessage>,
     /// Set, it replaces a coordinate of every pose.
     pub poison: &'a Cell<Option<f32>>,
+    /// The chip's failures.
+    pub chip: &'a mut ChipFailures,
+    /// Set, the first word of the capped box's tables has changed ([`Setting::Tabled`]).
+    pub word_changes: bool,
     /// Contacts that were given up so far.
     pub lost: u32,
     /// Counts of the first joint in a tick at a fifth of the maximum rate.
@@ -132,6 +145,43 @@ impl<K: Kinematics<JOINTS>, const JOINTS: usize> Kinematics<JOINTS> for Poisoned
         Some((pose, weight))
     }
 }
+
+/// The wall with the tables of the capped box, the first word of which may change.
+#[derive(Debug)]
+struct Tabled(&'static SplinePatch<'static>, &'static Body<'static>, Cell<bool>);
+
+impl Surface for Tabled {
+    type Witness = PatchWitness;
+
+    fn rest(&self) -> PatchWitness {
+        self.0.rest()
+    }
+
+    fn follow(&self, controller: &Controller, witness: &mut PatchWitness, probe: Probe, period: f32) -> Touched {
+        self.0.follow(controller, witness, probe, period)
+    }
+
+    fn release(&self, witness: &mut PatchWitness) {
+        self.0.release(witness);
+    }
+}
+
+impl BakedTables for Tabled {
+    fn table_word(&self, cursor: TableCursor) -> Option<u32> {
+        let changed = u32::from(self.2.get() && cursor == TableCursor::default());
+        self.1.table_word(cursor).map(|word| word ^ changed)
+    }
+
+    fn table_records(&self) -> u32 {
+        self.1.table_records()
+    }
+
+    fn baked_crc(&self) -> Option<u32> {
+        self.1.baked_crc()
+    }
+}
+
+impl Commanded for Tabled {}
 
 fn length(vector: Vector) -> f64 {
     vector.iter().map(|axis| axis * axis).sum::<f64>().sqrt()
@@ -234,6 +284,11 @@ impl Subject {
                 let servo = Servo::new(device, surface, Config { homing: Some(homing), ..config });
                 Some(run.on(servo, &device.kinematics.1, self.plant_of(setting)))
             }
+            Setting::Tabled => {
+                let surface: &'static Tabled = leaked(Tabled(surface, capped_box().ok()?, Cell::new(false)));
+                let servo = Servo::new(device, surface, config);
+                Some(run.with(servo, &device.kinematics.1, Some(&surface.2), self.plant_of(setting)))
+            }
             _ => Some(run.on(Servo::new(device, surface, config), &device.kinematics.1, self.plant_of(setting))),
         }
     }
@@ -263,12 +318,31 @@ struct Run {
 }
 
 impl Run {
-    fn on<K: Kinematics<JOINTS> + 'static, G: Guard<JOINTS> + 'static, const JOINTS: usize>(
+    fn on<K, G, const JOINTS: usize>(
         self,
-        servo: Servo<'static, palpate::patch::SplinePatch<'static>, K, JOINTS, G>,
+        servo: Servo<'static, SplinePatch<'static>, K, JOINTS, G>,
         poison: &Cell<Option<f32>>,
         plant: PlantSettings,
-    ) -> Found {
+    ) -> Found
+    where
+        K: Kinematics<JOINTS> + 'static,
+        G: Guard<JOINTS> + 'static,
+    {
+        self.with(servo, poison, None, plant)
+    }
+
+    fn with<K, G, const JOINTS: usize, S>(
+        self,
+        servo: Servo<'static, S, K, JOINTS, G>,
+        poison: &Cell<Option<f32>>,
+        changed: Option<&Cell<bool>>,
+        plant: PlantSettings,
+    ) -> Found
+    where
+        K: Kinematics<JOINTS> + 'static,
+        G: Guard<JOINTS> + 'static,
+        S: Commanded + 'static,
+    {
         let axis = self.joints - 1;
         let is_free = matches!(
             self.setting,
@@ -278,6 +352,7 @@ impl Run {
                 | Setting::ReversedEncoder(_)
                 | Setting::NoSupply
                 | Setting::Heavier
+                | Setting::NoStart
         );
         let is_heavier = self.setting == Setting::Heavier;
         let heights = if is_heavier {
@@ -292,12 +367,16 @@ impl Run {
         let volts = 1e3 * self.voltage;
         let supply = SupplyRange { min_mv: (volts / 1.2) as u32, max_mv: (volts * 1.25) as u32 };
         let is_untested = self.setting == Setting::StopUntested;
-        let settings = Settings { supply: Some(supply), tests_stop: is_untested, ..Settings::new(CLOCK) };
+        let board = Settings { supply: Some(supply), tests_stop: is_untested, ..Settings::new(CLOCK) };
         let reset = if let Setting::Reset(reason) = self.setting { reason } else { ResetReason::PowerOn };
         let made = Made(servo, self.setting == Setting::Miscalibrated, Wiring::STRAIGHT);
-        let mut rig = Rig::made(made, plant, &settings, reset);
+        let mut rig = Rig::made(made, plant, &board, reset);
         rig.set(|world| world.supply = self.voltage);
         let magnets = (self.setting == Setting::Magnetic).then(|| rig.with_magnetic_sensors());
+        let mut chip = Chip::new(rig.mailbox);
+        if self.setting == Setting::NoStart {
+            chip.start_with_sticking_bits();
+        }
         let before_force = matches!(
             self.setting,
             Setting::Reset(_)
@@ -305,6 +384,7 @@ impl Run {
                 | Setting::Miscalibrated
                 | Setting::Misplaced
                 | Setting::NoSupply
+                | Setting::NoStart
                 | Setting::ReversedEncoder(_)
         );
         // The button is seen released, then pressed, for as long as a loop without the failure takes to give force.
@@ -314,25 +394,36 @@ impl Run {
                 if self.setting == Setting::Linked && tick % 40 == 0 {
                     rig.send(HostMessage::Alive);
                 }
-                rig.tick();
+                chip.tick(&mut rig, &board);
             }
         }
         assert!(before_force || (rig.state().phase() == Phase::Running && !rig.is_off()), "{:?}", rig.fault());
-        self.watch(&mut rig, magnets.as_ref(), poison)
+        self.watch((&mut rig, &mut chip, &board), magnets.as_ref(), poison, changed)
     }
 
-    fn watch<K: Kinematics<JOINTS> + 'static, G: Guard<JOINTS> + 'static, const JOINTS: usize>(
+    fn watch<K, G, const JOINTS: usize, S>(
         self,
-        rig: &mut Rig<K, G, JOINTS>,
+        (rig, chip, board): (&mut Rig<K, G, JOINTS, S>, &mut Chip, &Settings),
         magnets: Option<&SharedTable>,
         poison: &Cell<Option<f32>>,
-    ) -> Found {
+        changed: Option<&Cell<bool>>,
+    ) -> Found
+    where
+        K: Kinematics<JOINTS> + 'static,
+        G: Guard<JOINTS> + 'static,
+        S: Commanded + 'static,
+    {
         let (servo, shared) = (rig.bench.felt().0, Rc::clone(&rig.world));
         let (settings, device) = (servo.config().settings, servo.device());
         let force = f64::from(settings.max_force_n.min(device.max_force_n));
         let per_tick = device.max_joint_rate_rad_per_s / RATE as f32 / device.encoders[0].radians_per_count.abs();
-        let (mut found, mut until) =
-            (Found { off_ms: None, fault: None, motion_mm: 0.0, speed_m_per_s: 0.0 }, PATIENCE);
+        let mut found = Found { off_ms: None, fault: None, motion_mm: 0.0, speed_m_per_s: 0.0 };
+        let mut until = match self.setting {
+            Setting::Tabled => PATIENCE_WITH_TABLES,
+            Setting::NoStart => NO_START,
+            _ => PATIENCE,
+        };
+        let mut driven = 0;
         let (mut since, mut start, mut longest) = (None, None, 0);
         let mut tick = 0;
         while tick < until {
@@ -344,12 +435,15 @@ impl Run {
             let next = (counts[0] + world.turned[0] + slow) as f32 + 0.5;
             let next = next * encoder.radians_per_count + encoder.angle_at_zero_rad;
             let [least, most] = device.joint_range_rad[0];
+            let mut failures = chip.failures;
             let mut touch = Touch {
                 tick,
                 world,
                 magnets: magnets.map(|magnets| magnets.borrow_mut()),
                 sends: Vec::new(),
                 poison,
+                chip: &mut failures,
+                word_changes: false,
                 lost,
                 leaves_range: next < least || most < next,
                 slow,
@@ -358,11 +452,15 @@ impl Run {
                 axis: self.joints - 1,
             };
             let acts = (self.change)(&mut touch);
-            let Touch { sends, world, magnets: table, .. } = touch;
-            drop((world, table));
+            let (sends, word_changes) = (std::mem::take(&mut touch.sends), touch.word_changes);
+            drop(touch);
+            chip.failures = failures;
             sends.into_iter().for_each(|message| rig.send(message));
-            rig.tick();
+            changed.inspect(|changed| changed.set(word_changes));
+            let before = rig.world.borrow().plant.position();
+            chip.tick(rig, board);
             tick += 1;
+            driven += u32::from(!rig.is_off());
             (since, start) = if acts { (since.or(Some(tick - 1)), start) } else { (None, None) };
             if found.off_ms.is_some() {
                 continue;
@@ -377,14 +475,18 @@ impl Run {
             };
             if let Some(since) = since {
                 longest = longest.max(tick - since);
-                let from: Vector = *start.get_or_insert(now);
+                let from: Vector = *start.get_or_insert(before);
                 let moved = length(core::array::from_fn(|axis| now[axis] - from[axis]));
                 found.motion_mm = found.motion_mm.max(1e3 * moved);
                 found.speed_m_per_s = found.speed_m_per_s.max(length(velocity));
             }
-            if rig.is_off() && longest > 0 {
+            if self.setting != Setting::NoStart && rig.is_off() && longest > 0 {
                 (found.off_ms, until) = (Some(f64::from(longest) / TICKS_PER_MS), tick + AFTER);
             }
+        }
+        if self.setting == Setting::NoStart {
+            // Off from before the failure acts.
+            found.off_ms = Some(f64::from(driven) / TICKS_PER_MS);
         }
         found.fault = rig.fault();
         found

@@ -1,12 +1,6 @@
 //! Clocks and the times of ticks.
 
-use super::{
-    Failure,
-    Reaction::Latched,
-    Setting,
-    Shown::{Planted, Tested},
-    row,
-};
+use super::{Failure, Reaction::Latched, Setting, Shown::Planted, row};
 use palpate::servo::Fault;
 
 pub(super) const TABLE: &[Failure] = &[
@@ -61,6 +55,9 @@ pub(super) const TABLE: &[Failure] = &[
         ],
         100.0,
         Latched(Fault::WatchdogReset),
-        Tested,
+        Planted(Setting::Pressed, |touch| {
+            touch.chip.oscillator = 0.8;
+            true
+        }),
     ),
 ];

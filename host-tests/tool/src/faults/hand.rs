@@ -63,6 +63,20 @@ pub fn is_let_go(touch: &mut Touch<'_>) -> bool {
     touch.time() >= RELEASED
 }
 
+/// The hand presses until the force is full, and then lets go.
+pub(super) fn lets_go_of_a_full_press(touch: &mut Touch<'_>) -> bool {
+    if touch.tick == 0 {
+        // The hand's spring gives way by the force of the wall.
+        let aim = -0.5 * touch.deepest - touch.max_force / FIRM.stiffness;
+        touch.follow(&[[0.0, -0.004], [0.3, aim]], 0.0);
+    }
+    let lets_go = touch.time() >= 0.5;
+    if lets_go {
+        touch.hold(HandSettings::NONE);
+    }
+    lets_go
+}
+
 /// Through what the contact bears and out again, five times a second.
 fn presses_too_deep(touch: &mut Touch<'_>) -> bool {
     if touch.tick == 0 {

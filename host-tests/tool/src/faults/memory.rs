@@ -4,24 +4,25 @@ use super::{
     Failure,
     Reaction::{Latched, NoStart},
     Setting,
-    Shown::{Planted, Tested},
+    Shown::Planted,
+    hand::lets_go_of_a_full_press,
     row,
 };
-use palpate::servo::{Fault, ResetReason};
+use palpate::servo::Fault;
 
 pub(super) const TABLE: &[Failure] = &[
     row(
         [
             "memory",
             "the program hung",
-            "watchdog, which resets the chip; reset reason",
-            "every_fault_in_every_phase_is_safe_named_and_latched",
+            "watchdog of 40 ms with a host, 20 ms without, its clock up to a tenth slow; reset reason",
+            "test_watchdog_is_fed_only_while_ticks_go_on",
         ],
-        40.0,
+        45.0,
         Latched(Fault::WatchdogReset),
-        Planted(Setting::Reset(ResetReason::Watchdog), |touch| {
-            touch.world.button = true;
-            true
+        Planted(Setting::Pressed, |touch| {
+            touch.chip.hangs = lets_go_of_a_full_press(touch);
+            touch.chip.hangs
         }),
     ),
     row(
@@ -33,7 +34,10 @@ pub(super) const TABLE: &[Failure] = &[
         ],
         1.0,
         Latched(Fault::WatchdogReset),
-        Tested,
+        Planted(Setting::Pressed, |touch| {
+            touch.chip.feeds_always = lets_go_of_a_full_press(touch);
+            touch.chip.feeds_always
+        }),
     ),
     row(
         [
@@ -44,7 +48,10 @@ pub(super) const TABLE: &[Failure] = &[
         ],
         0.0,
         NoStart,
-        Tested,
+        Planted(Setting::NoStart, |touch| {
+            touch.world.button = true;
+            true
+        }),
     ),
     row(
         [
@@ -55,7 +62,10 @@ pub(super) const TABLE: &[Failure] = &[
         ],
         6_500.0,
         Latched(Fault::TableCorrupt),
-        Tested,
+        Planted(Setting::Tabled, |touch| {
+            touch.word_changes = true;
+            true
+        }),
     ),
     row(
         [
@@ -66,7 +76,10 @@ pub(super) const TABLE: &[Failure] = &[
         ],
         0.25,
         Latched(Fault::WatchdogReset),
-        Tested,
+        Planted(Setting::Pressed, |touch| {
+            touch.chip.locks_up = lets_go_of_a_full_press(touch);
+            touch.chip.locks_up
+        }),
     ),
     row(
         ["memory", "a force is not a number", "every tick", "every_fault_in_every_phase_is_safe_named_and_latched"],
@@ -100,6 +113,9 @@ pub(super) const TABLE: &[Failure] = &[
         ],
         1_000.0,
         Latched(Fault::WatchdogReset),
-        Tested,
+        Planted(Setting::Pressed, |touch| {
+            touch.chip.word_changes = touch.tick == 0;
+            true
+        }),
     ),
 ];

@@ -5,7 +5,7 @@ use super::{
     Failure,
     Reaction::Latched,
     Setting,
-    Shown::{Planted, Tested},
+    Shown::{OnKnob, Planted},
     gap, row,
 };
 use palpate::servo::Fault;
@@ -51,7 +51,7 @@ pub(super) const TABLE: &[Failure] = &[
         ],
         500.0,
         Latched(Fault::Drive),
-        Tested,
+        OnKnob("phase currents"),
     ),
     gap(
         "motor",

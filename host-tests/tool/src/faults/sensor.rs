@@ -1,13 +1,7 @@
 //! Sensors of the joints.
 
 use super::hand::APPROACHES;
-use super::{
-    Failure,
-    Reaction::Latched,
-    Setting,
-    Shown::{Planted, Tested},
-    Touch, gap, row,
-};
+use super::{Failure, Reaction::Latched, Setting, Shown::Planted, Touch, gap, row};
 use palpate::servo::Fault;
 use palpate_bench::sensors::BadFrame;
 use palpate_sim::plant::EncoderFault;
@@ -155,7 +149,10 @@ pub(super) const TABLE: &[Failure] = &[
         ],
         0.75,
         Latched(Fault::FrameLost),
-        Tested,
+        Planted(Setting::Magnetic, |touch| {
+            touch.magnets.iter_mut().for_each(|table| table.finishes = false);
+            true
+        }),
     ),
     gap(
         "sensor",

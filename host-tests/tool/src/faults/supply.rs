@@ -4,7 +4,7 @@ use super::{
     Failure,
     Reaction::{Hold, Latched},
     Setting,
-    Shown::{Planted, Tested},
+    Shown::Planted,
     row,
 };
 use palpate::servo::{Fault, ResetReason};
@@ -61,7 +61,10 @@ pub(super) const TABLE: &[Failure] = &[
         ],
         1.25,
         Hold,
-        Tested,
+        Planted(Setting::Pressed, |touch| {
+            touch.world.converts = false;
+            true
+        }),
     ),
     row(
         [
@@ -72,7 +75,10 @@ pub(super) const TABLE: &[Failure] = &[
         ],
         1.25,
         Hold,
-        Tested,
+        Planted(Setting::Pressed, |touch| {
+            touch.world.reference = 0.85;
+            true
+        }),
     ),
     row(
         [

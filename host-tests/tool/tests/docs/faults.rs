@@ -53,6 +53,10 @@ fn every_planted_failure_is_detected_as_the_page_states_on_every_device() {
         let nothing = subject.plant(Setting::Pressed, |_| true).expect("it can be planted");
         assert_eq!((nothing.off_ms, nothing.fault), (None, None), "{}: no failure, nothing detected", device.name);
         for row in table().filter(|row| matches!(row.shown, Shown::Planted(..))) {
+            // The tables are the loop's, whatever the device, and their check takes 24,000 ticks.
+            if matches!(row.shown, Shown::Planted(Setting::Tabled, _)) && device.name != DEVICES[0].name {
+                continue;
+            }
             let is_excused = row.excuse(&subject).is_some();
             let found = row.plant(&subject);
             let is_as_stated = found.is_some_and(|found| row.is_as_stated(&found));
@@ -104,6 +108,13 @@ fn an_arm_that_is_let_go_is_as_fast_as_the_page_states() {
 #[test]
 fn every_failure_of_a_knob_is_detected_as_the_page_states() {
     assert_eq!(brakes_with_a_chopper(), None);
+    for row in table() {
+        assert!(
+            row.plant_on_knob().is_none_or(|found| row.is_as_stated_of(found.off_ms, found.fault)),
+            "{}",
+            row.failure
+        );
+    }
     for row in &KNOB {
         let found = row.plant();
         assert!(row.is_as_stated(&found), "{}: {found:?}", row.failure);
