@@ -32,9 +32,13 @@ const EVALUATE: &str = "palpate_emulated::budget::evaluation::evaluate";
 pub const SERVO: Root =
     Root { function: "palpate_emulated::budget::servo::tick", title: "servo tick", skip: 0, take: 20_000 };
 
-/// Loops that have an image of their own: its feature, and what a tick is called; on the foam box where that is soft. Not
-/// the protected ones: a return of theirs is taken for none now and then, and two ticks for one.
-pub const LOOPS: [(&str, &str); 2] = [("smooth", "servo tick, smooth"), ("soft-four", "servo tick, 4 modes")];
+/// Loops that have an image of their own: its feature, and what a tick is called; on the foam box where that is soft.
+pub const LOOPS: [(&str, &str); 4] = [
+    ("counted", "servo tick, protected"),
+    ("folded", "servo tick, folded back"),
+    ("smooth", "servo tick, smooth"),
+    ("soft-four", "servo tick, 4 modes"),
+];
 
 /// The estimated calls. The program first evaluates patches of degree 1 to 5, polynomial, then rational.
 pub const ROOTS: [Root; 5] = [

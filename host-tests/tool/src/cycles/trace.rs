@@ -122,7 +122,8 @@ pub fn estimate(program: &Program, core: Core, roots: &[Root]) -> Result<Vec<(Ro
         .collect()
 }
 
-/// The emulator's blocks end at multiples of this, if not before.
+/// The emulator's blocks end where this many bytes do, if not before: behind the last instruction that starts within
+/// them, or before it where it reaches beyond and is not the block's first.
 const PAGE: u64 = 1024;
 
 /// The instructions of a block and the ones behind it up to where it leads: it ends with one that may lead elsewhere,
@@ -132,7 +133,8 @@ fn straight(costs: &Costs, from: u64, then: u64) -> Vec<u64> {
     let mut at = from;
     while let Some((_, flow, next)) = costs.get(&at) {
         executed.push(at);
-        let goes_on = *next == then && (then + 2) % PAGE <= 2;
+        let ends_page = at / PAGE != then / PAGE || (then + 2).is_multiple_of(PAGE);
+        let goes_on = *next == then && ends_page;
         if *flow != Flow::Next || goes_on {
             break;
         }
@@ -170,7 +172,28 @@ fn address(line: &[u8]) -> Option<u64> {
 
 #[cfg(test)]
 mod tests {
-    use super::address;
+    use super::{Costs, address, straight};
+    use crate::cycles::model::Cost;
+    use crate::proof::{Flow, Instruction};
+
+    #[test]
+    fn a_block_ends_at_a_page_whose_last_instruction_reaches_beyond() {
+        // Four instructions of two half-words, the last of which calls.
+        let costs: Costs = (0..4)
+            .map(|index| {
+                let (at, flow) = (0x3fa + 4 * index, if index == 3 { Flow::Call(0) } else { Flow::Next });
+                let text = "nop.w".to_owned();
+                let instruction =
+                    Instruction { address: at, length: 4, text, flow: flow.clone(), grows: Some(0), double: false };
+                (at, (Cost::of(&instruction), flow, at + 4))
+            })
+            .collect();
+        // Not the first: the block ends before it. The first: it ends behind it.
+        assert_eq!(straight(&costs, 0x3fa, 0x3fe), [0x3fa]);
+        assert_eq!(straight(&costs, 0x3fe, 0x402), [0x3fe]);
+        // The call within a page is the end, wherever it leads.
+        assert_eq!(straight(&costs, 0x402, 0x402), [0x402, 0x406]);
+    }
 
     #[test]
     fn the_program_counter_stands_in_the_middle() {

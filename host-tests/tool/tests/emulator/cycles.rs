@@ -2,12 +2,19 @@
 
 use crate::running::is_wanted;
 use palpate_tool::budgets::Budget;
-use palpate_tool::cycles::{Core, ROOTS, Root, estimate};
-use palpate_tool::firmware::{Board, Program, Progress};
+use palpate_tool::cycles::{Core, LOOPS, ROOTS, Root, SERVO, estimate};
+use palpate_tool::firmware::{Board, Program, Progress, cores};
 use palpate_tool::proof::Code;
 
 /// Calls of each root that are followed here; the command follows thousands.
 const CALLS: usize = 20;
+/// Protected ticks: some ten seconds.
+const A_FEW: usize = 3_000;
+
+/// Whether the whole walk is followed: in a long run.
+fn is_long() -> bool {
+    cores().len() > 1
+}
 
 #[test]
 fn each_root_is_a_function_of_the_image() {
@@ -48,5 +55,24 @@ fn the_instructions_followed_are_those_that_the_budget_counts() {
         // The budget's counter also takes the call and the reading of its clock.
         let followed = calls.instructions[0];
         assert!(followed <= counted && 10 * followed >= 8 * counted, "{title}: {followed} followed, {counted} counted");
+    }
+}
+
+#[test]
+fn protected_ticks_are_followed_one_by_one_as_the_budget_counts_them() {
+    if !is_wanted("protected_ticks_are_followed_one_by_one_as_the_budget_counts_them") {
+        return;
+    }
+    let budget = Budget::load(Board::M4).expect("the committed budget");
+    for (feature, title) in LOOPS.into_iter().filter(|(feature, _)| ["counted", "folded"].contains(feature)) {
+        let program = Program::prepare(Board::M4, "budget", &[feature], &Progress::new()).expect("the program builds");
+        let root = Root { title, take: if is_long() { SERVO.take } else { A_FEW }, ..SERVO };
+        let found = estimate(&program, Core::M4, &[root]).expect("the program is followed");
+        let worst = budget.of(&format!("{title}, worst")).expect("a figure of the budget");
+        let followed = found[0].1.instructions.iter().max().copied().expect("ticks");
+        println!("{title}: at most {followed} followed, {worst} counted");
+        // Two ticks for one would be more. The counter takes the call and the reading of its clock too.
+        assert!(followed <= worst, "{title}: {followed} followed, {worst} counted");
+        assert!(!is_long() || followed + 12 >= worst, "{title}: {followed} followed, {worst} counted");
     }
 }
