@@ -16,6 +16,11 @@ impl OptionBytes {
 
     /// The option to set before any motor is driven, if one is wrong: in Stop mode pins keep their levels and timers
     /// stand still, so that either the watchdog goes on (`IWDG_STOP`) or the mode resets the chip (`nRST_STOP`).
+    ///
+    /// Nothing else takes supervision away: Standby lets go of every pin, so that the motors are off whether the watchdog
+    /// goes on in it or not (`IWDG_STDBY`); without a reset pin (`NRST_MODE`) the watchdog and the supply reset the chip
+    /// as before; read-out protection (`RDP`) only keeps a debugger away; a watchdog that the reset starts (`IWDG_SW`)
+    /// takes the program's timeout and window too. They are reported.
     pub const fn refused(self) -> Option<&'static str> {
         if self.has(12) && !self.has(17) { Some("IWDG_STOP=1") } else { None }
     }
