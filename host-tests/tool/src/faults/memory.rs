@@ -60,7 +60,7 @@ pub(super) const TABLE: &[Failure] = &[
             "CRC, a word every eighth tick",
             "every_fault_in_every_phase_is_safe_named_and_latched",
         ],
-        6_500.0,
+        5_000.0,
         Latched(Fault::TableCorrupt),
         Planted(Setting::Tabled, |touch| {
             touch.word_changes = true;
