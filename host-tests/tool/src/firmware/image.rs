@@ -157,7 +157,8 @@ pub fn build_bench(board: BenchBoard, body: Option<BenchBody<'_>>, progress: &Pr
     let toolchain = Toolchain::set_up(board.target(), progress)?;
     let target_folder = toolchain.target_folder()?;
     let mut cargo = toolchain.cargo();
-    cargo.current_dir(board.folder()?).args(["build", "--release", "--target-dir"]).arg(&target_folder);
+    cargo.current_dir(board.folder()?).args(["build", "--release", "--bin", board.name(), "--target-dir"]);
+    cargo.arg(&target_folder);
     choose_body(&mut cargo, body)?;
     progress.during(&format!("building the firmware for the board {}", board.name()), || output(&mut cargo))?;
     Ok(target_folder.join(board.target()).join("release").join(board.name()))
