@@ -6,6 +6,9 @@ use glam::{DVec2, DVec3};
 /// Newton's steps before giving up; from a guess on the same sheet four are usual.
 const STEPS: usize = 30;
 
+/// The tangent round a pole, as a part of the other, where a point lies on the pole: about a nanometre off it.
+const AT_POLE: f64 = 1e-7;
+
 /// Result of [`Surface::project`].
 #[derive(Clone, Copy, Debug)]
 pub struct Foot {
@@ -30,11 +33,17 @@ impl Surface {
             let gradient = DVec2::new(off.dot(su), off.dot(sv));
             let gauss = [su.dot(su), su.dot(sv), sv.dot(sv)];
             let newton = [0, 1, 2].map(|k| gauss[k] + off.dot(jet.second[k]));
-            let Some(step) =
+            let Some(mut step) =
                 solve(newton, gradient).or_else(|| solve(gauss, gradient)).or_else(|| slope(gauss, gradient))
             else {
                 break;
             };
+            // At a pole nothing holds the parameter round it but rounding, which would lead anywhere.
+            for (axis, [own, other]) in [[gauss[0], gauss[2]], [gauss[2], gauss[0]]].into_iter().enumerate() {
+                if own <= AT_POLE * AT_POLE * other {
+                    step[axis] = 0.0;
+                }
+            }
             let mut share = 1.0;
             let moved = loop {
                 let next = self.kept(uv - step * share);

@@ -5,15 +5,17 @@ use palpate_cad::{Options, import};
 use std::f64::consts::PI;
 use std::path::PathBuf;
 
-/// Volume, mm³, and area, mm², within the tolerance.
-fn comes_in(part: &str, [volume, area]: [f64; 2]) {
+/// Volume, mm³, and area, mm², within the tolerance; gives the number of patches.
+fn comes_in(part: &str, [volume, area]: [f64; 2]) -> usize {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("tests/parts/{part}.step"));
     let options = Options::default();
-    let found = import(&path, &options).unwrap().volume_and_area;
+    let imported = import(&path, &options).unwrap();
+    let found = imported.volume_and_area;
     // A surface that is displaced by a tenth of the tolerance everywhere, which no fit is; areas bend by less.
     let slack = 0.1 * options.tolerance * area;
     assert!((found[0] - volume).abs() <= slack, "{part}: {} mm³, not {volume}", found[0]);
     assert!((found[1] - area).abs() <= 2e-4 * area, "{part}: {} mm², not {area}", found[1]);
+    imported.patches.len()
 }
 
 /// The tori of its fillets are not their complement.
@@ -27,19 +29,29 @@ fn tube_fillet_all() {
     comes_in("tube_fillet_all", [5_901.366, 4_263.636]);
 }
 
-/// `crown_2_30`: an arc of 30 mm about a centre 2 mm beyond the axis, from (10, 5) mm to the axis: π ∫ r² dz, 2π ∫ r ds.
-#[test]
-fn crown() {
-    let (low, high) = ((12.0_f64 / 30.0).asin(), (2.0_f64 / 30.0).asin());
+/// Volume and area of a cylinder of 10 mm and 5 mm below an arc to the axis, about a centre beyond it: π ∫ r² dz, 2π ∫ r ds.
+fn crowned(radius: f64, beyond: f64) -> [f64; 2] {
+    let (low, high) = (((10.0 + beyond) / radius).asin(), (beyond / radius).asin());
     let (count, mut volume, mut area) = (100_000, PI * 500.0, PI * 100.0 + PI * 20.0 * 5.0);
     let step = (low - high) / f64::from(count);
     for k in 0..count {
         let sine = (high + step * (f64::from(k) + 0.5)).sin();
-        let radius = 30.0 * sine - 2.0;
-        volume += PI * radius * radius * 30.0 * sine * step;
-        area += 2.0 * PI * radius * 30.0 * step;
+        let across = radius * sine - beyond;
+        volume += PI * across * across * radius * sine * step;
+        area += 2.0 * PI * across * radius * step;
     }
-    comes_in("crown_2_30", [volume, area]);
+    [volume, area]
+}
+
+#[test]
+fn crown() {
+    comes_in("crown_2_30", crowned(30.0, 2.0));
+}
+
+/// Its tip is as sharp as that of a lemon, and takes no more patches than a level one.
+#[test]
+fn steep_crown() {
+    assert!(comes_in("steep_crown", crowned(20.0, 9.0)) <= 13);
 }
 
 /// `dome_ellipse`: half of an ellipsoid with half axes 12, 12 and 7 mm on a disc.
