@@ -62,6 +62,14 @@ fn dome() {
     comes_in("dome_ellipse", [2.0 / 3.0 * PI * 144.0 * 7.0, half + PI * 144.0]);
 }
 
+/// Half a turn of the same: the whole ellipse, turned, is swept twice, and both sweeps have an edge at their start.
+#[test]
+fn half_dome() {
+    let eccentricity = (1.0_f64 - 49.0 / 144.0).sqrt();
+    let half = PI * 144.0 * (1.0 + (1.0 - eccentricity * eccentricity) / eccentricity * eccentricity.atanh());
+    comes_in("half_dome", [PI / 3.0 * 144.0 * 7.0, 0.5 * (half + PI * 144.0) + 0.5 * PI * 12.0 * 7.0]);
+}
+
 /// By 40,000 frusta along the profile's cubic B-spline; the kernel's own quadrature is 0.6 mm³ and 1.3 mm² off.
 #[test]
 fn spline_knob() {

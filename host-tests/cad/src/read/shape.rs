@@ -114,7 +114,8 @@ impl<'p> Gather<'p> {
     }
 
     /// The part of a surface that holds all edges of a face. A sphere that is swept twice, on either side of its axis,
-    /// has two such parts: there an edge at the start of the sweep decides, which lies at the start of the parameter.
+    /// has two such parts: there an edge at the start of the sweep decides, which lies at the start of the parameter; of
+    /// half a turn, which has an edge there in both, the outline.
     fn part_of_edges(&self, parts: Vec<Surface>, loops: &[Vec<Use>], flip: bool) -> Option<Surface> {
         let edges: Vec<&Edge> = loops.iter().flatten().map(|used| &self.part.edges[used.edge]).collect();
         let holds = |part: &Surface| {
@@ -128,6 +129,18 @@ impl<'p> Gather<'p> {
             let is_at_start = |share: f64| (share - share.round()).abs() < 1e-6;
             edges.iter().any(|edge| [0.3, 0.7].iter().all(|at| is_at_start(share(edge, *at))))
         };
+        // The outline has the face on its left, which its middle is of a quarter of a sphere.
+        let is_on_the_left = |part: &Surface| {
+            let uses = || loops.iter().flatten().flat_map(|used| [0.1, 0.3, 0.5, 0.7, 0.9].map(|share| (used, share)));
+            let points = uses().map(|(used, share)| self.part.edges[used.edge].at(share)[0]);
+            let middle = points.clone().sum::<DVec3>() / points.count().max(1) as f64;
+            let sides = uses().map(|(used, share)| {
+                let [at, along] = self.part.edges[used.edge].at(share);
+                let along = if used.reversed { -along } else { along };
+                part.normal(part.locate(at).uv).cross(along).dot(middle - at)
+            });
+            sides.sum::<f64>() > 0.0
+        };
         let mut fitting: Vec<Surface> = parts.into_iter().filter(holds).collect();
         // Without edges, the part that has the solid behind it.
         let volume = |part: &Surface| {
@@ -139,7 +152,10 @@ impl<'p> Gather<'p> {
             all.map(|jet| (jet.point - centre).dot(jet.cross())).sum::<f64>()
         };
         let is_outward = |part: &Surface| edges.is_empty() && (volume(part) < 0.0) == flip;
-        let first = fitting.iter().position(starts_sweep).or_else(|| fitting.iter().position(is_outward)).unwrap_or(0);
+        let starting: Vec<usize> = (0..fitting.len()).filter(|index| starts_sweep(&fitting[*index])).collect();
+        let on_the_left = || starting.iter().copied().find(|index| is_on_the_left(&fitting[*index]));
+        let first = if starting.len() > 1 { on_the_left() } else { starting.first().copied() };
+        let first = first.or_else(|| fitting.iter().position(is_outward)).unwrap_or(0);
         if first >= fitting.len() {
             return None;
         }
