@@ -71,8 +71,10 @@ fn protected_ticks_are_followed_one_by_one_as_the_budget_counts_them() {
         let worst = budget.of(&format!("{title}, worst")).expect("a figure of the budget");
         let followed = found[0].1.instructions.iter().max().copied().expect("ticks");
         println!("{title}: at most {followed} followed, {worst} counted");
-        // Two ticks for one would be more. The counter takes the call and the reading of its clock too.
+        // Two ticks for one would be more.
         assert!(followed <= worst, "{title}: {followed} followed, {worst} counted");
-        assert!(!is_long() || followed + 12 >= worst, "{title}: {followed} followed, {worst} counted");
+        // The counter takes the call and the reading of its clock too, and counts five times as many ticks as are followed.
+        let is_near = 100 * followed >= 98 * worst;
+        assert!(!is_long() || is_near, "{title}: {followed} followed, {worst} counted");
     }
 }
