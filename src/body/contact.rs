@@ -1,6 +1,7 @@
 //! Contact at the closest point: normal, signed gap, and whether the body is touched.
 
 use super::feature::{EdgeKind, Face, Feature};
+use super::pole::Pole;
 use super::table::Body;
 use super::tracker::{BodyStep, BodyWitness};
 use crate::field::Displacement;
@@ -23,10 +24,12 @@ impl<D: Displacement> Body<'_, D> {
         match state.feature {
             Feature::Face(index) => {
                 let Some(face) = self.faces.get(usize::from(index)) else { return };
-                let at_pole = if self.has_poles { self.normal_at_pole(face, state.witness.parameters) } else { None };
-                let normal = at_pole.or_else(|| state.witness.normal(&face.patch)).unwrap_or(state.normal);
                 let away = probe - state.witness.surface.point;
-                let gap = away.dot(normal);
+                let at_pole = if self.has_poles { self.plane_at_pole(face, state, probe, away) } else { None };
+                let (normal, gap) = at_pole.unwrap_or_else(|| {
+                    let normal = state.witness.normal(&face.patch).unwrap_or(state.normal);
+                    (normal, away.dot(normal))
+                });
                 if gap < 0.0 {
                     let contact = state.contact;
                     match contact {
@@ -110,12 +113,38 @@ impl<D: Displacement> Body<'_, D> {
         self.set_contact(state, away, contact);
     }
 
-    /// The normal at a pole, where tangents are rounding: that of its vertex. The last normal may be from across the
-    /// face, because a step may end at a pole from anywhere.
+    /// Normal and signed gap at a pole, where the tangent around it is rounding: those of its vertex. The last normal
+    /// may be from across the face, because a step may end at a pole from anywhere.
+    ///
+    /// Beside a tip or above a pit the vertex's normal says "inside" to the wrong probes: if the cone of the meridians
+    /// says otherwise, its normal and gap count.
     #[inline(never)]
-    fn normal_at_pole(&self, face: &Face, parameters: [f32; 2]) -> Option<Vec3> {
-        let outward = self.outward(self.vertices.get(usize::from(self.pole_at(face, parameters)?))?);
-        (outward != Vec3::ZERO).then_some(outward)
+    fn plane_at_pole(&self, face: &Face, state: &BodyWitness, probe: Vec3, away: Vec3) -> Option<(Vec3, f32)> {
+        let vertex = self.vertices.get(usize::from(self.pole_at(face, state.witness.parameters)?))?;
+        let outward = self.outward(vertex);
+        if outward == Vec3::ZERO {
+            return None;
+        }
+        let gap = away.dot(outward);
+        let cone = self.cone_at_pole(face, state, outward, probe - self.place(vertex));
+        Some(cone.filter(|cone| (cone.1 < 0.0) != (gap < 0.0)).unwrap_or((outward, gap)))
+    }
+
+    /// Normal and signed gap over the cone of revolution whose axis is a pole's normal, with the slope of the meridian
+    /// at the witness point; `towards` leads from the pole to the probe. `None` on the axis, which is in no meridian's
+    /// plane.
+    fn cone_at_pole(&self, face: &Face, state: &BodyWitness, outward: Vec3, towards: Vec3) -> Option<(Vec3, f32)> {
+        let pole = Pole::nearest(face.poles(), state.witness.parameters, &face.patch, self.size)?;
+        let meridian = pole.meridian(&state.witness.surface);
+        let rise = meridian.dot(outward);
+        let [run, beside] = [meridian - outward * rise, towards - outward * towards.dot(outward)];
+        let [squared, across] = [meridian, beside].map(Vec3::length_squared);
+        if squared.min(across) <= f32::MIN_POSITIVE {
+            return None;
+        }
+        let slope = beside * (rise * inverse_sqrt(across));
+        let normal = (outward * sqrt_from_above(run.length_squared()) - slope) * inverse_sqrt(squared);
+        Some((normal, towards.dot(normal)))
     }
 
     /// Sets the contact. Without an audit the witness point may be on the far side: no contact. A witness point that

@@ -9,8 +9,8 @@
 //! At the pole there is no `φ_y`. The slope `φ_w` into the face is then a function of `y`, with the derivative `φ_yw`.
 
 use super::feature::{Face, Side};
-use crate::math::saturate;
-use crate::patch::{Patch as _, SplinePatch};
+use crate::math::{Vec3, saturate};
+use crate::patch::{Patch as _, SplinePatch, SurfacePoint};
 
 /// Distance from a pole, relative to the body's size, below which the tangent around it may be rounding: coordinates
 /// are rounded by `6e-8` of the size, a hundredth of this and less with the tangents computed from them.
@@ -74,6 +74,11 @@ impl Pole {
             }
         }
         nearest
+    }
+
+    /// The tangent that leads away from the pole, at a point of its face.
+    pub(super) fn meridian(&self, at: &SurfacePoint) -> Vec3 {
+        [at.tangent_u, at.tangent_v][self.axis()] * self.inward
     }
 
     /// Whether the parameter around the pole is only rounding at the point.
