@@ -59,7 +59,11 @@ impl<D: Displacement> Body<'_, D> {
                     EdgeKind::Open => None,
                     EdgeKind::Convex => Some(state.no_face_took_probe || state.gap >= 0.0),
                     EdgeKind::Reflex => Some(false),
-                    EdgeKind::Smooth => Some(state.gap >= 0.0 || self.is_above_smooth(edge, state)),
+                    // On the axis of a cone the probe is in the planes of all its edges, and no face takes it in.
+                    EdgeKind::Smooth if state.gap >= 0.0 => {
+                        Some(!(state.no_face_took_probe && self.is_below_smooth(edge, state)))
+                    }
+                    EdgeKind::Smooth => Some(self.is_above_smooth(edge, state)),
                     EdgeKind::Mixed => Some(state.gap >= 0.0),
                 };
                 self.update_contact_at_border(state, is_outward);

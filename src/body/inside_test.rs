@@ -18,12 +18,31 @@ const LEVEL: f32 = 0.01;
 
 impl<D: Displacement> Body<'_, D> {
     /// Whether a probe is well above the surface on both sides of a smooth edge, by the tangent plane at the witness
-    /// point: `n = t × m`, with `m` out of a face over the edge.
+    /// point.
     #[inline(never)]
     pub(super) fn is_above_smooth(&self, edge: &Edge, state: &BodyWitness) -> bool {
+        let Some((height, squared)) = self.height_over_smooth(edge, state) else { return false };
+        let hollowest = edge
+            .faces
+            .iter()
+            .filter_map(|of| self.faces.get(usize::from(of.face)))
+            .fold(0.0, |least, face| self.hollower(least, face));
+        is_steep(height, squared, hollowest)
+    }
+
+    /// Whether a probe is below a smooth edge, nearer to the normal than to the tangent plane.
+    #[inline(never)]
+    pub(super) fn is_below_smooth(&self, edge: &Edge, state: &BodyWitness) -> bool {
+        self.height_over_smooth(edge, state)
+            .is_some_and(|(height, squared)| height < 0.0 && height * height > 0.5 * squared)
+    }
+
+    /// A probe's height over the tangent plane at the witness point on a smooth edge, times a length; and the square of
+    /// its distance times that length. The normal is `t × m`, with `m` out of a face over the edge.
+    fn height_over_smooth(&self, edge: &Edge, state: &BodyWitness) -> Option<(f32, f32)> {
         let [of, _] = edge.faces;
-        let Some(face) = self.faces.get(usize::from(of.face)) else { return false };
-        let Some(Side::Edge { separator, reversed, .. }) = face.sides.get(usize::from(of.side)) else { return false };
+        let face = self.faces.get(usize::from(of.face))?;
+        let Some(Side::Edge { separator, reversed, .. }) = face.sides.get(usize::from(of.side)) else { return None };
         let across = match self.cross(edge, separator, state.witness.parameters[0]) {
             Cross::Plane { across, .. } | Cross::Ruled(across) => across,
         };
@@ -32,13 +51,7 @@ impl<D: Displacement> Body<'_, D> {
         // `f_u × f_v` is `t × m` at the lower border of `u` and the upper one of `v`, along the parameter.
         let is_turned = matches!(of.side, 1 | 2) != *reversed;
         let outward = if is_turned { -face.patch.orientation() } else { face.patch.orientation() };
-        let height = outward * normal.dot(away);
-        let hollowest = edge
-            .faces
-            .iter()
-            .filter_map(|of| self.faces.get(usize::from(of.face)))
-            .fold(0.0, |least, face| self.hollower(least, face));
-        is_steep(height, normal.length_squared() * away.length_squared(), hollowest)
+        Some((outward * normal.dot(away), normal.length_squared() * away.length_squared()))
     }
 
     /// Whether a probe closest to a vertex is outside a closed body; `None` if the vertex does not decide. If no edge
