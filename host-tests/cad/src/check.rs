@@ -214,7 +214,7 @@ mod tests {
     /// A part and its patches, with a fault planted into the part before it is divided.
     fn made(name: &str, fault: impl Fn(&mut Part)) -> (Part, Vec<Made>) {
         let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("tests/parts/{name}.step"));
-        let mut part = read::read(&path, None, 0.01).unwrap();
+        let mut part = read::read(&path, None, 0.01, crate::part::Sweep::Start).unwrap();
         sew::sew(&mut part, 0.01).unwrap();
         heal::take_out_seams(&mut part);
         turn::turn(&mut part, 0.01).unwrap();

@@ -5,7 +5,7 @@ use crate::divide::{self, Manner, Turning};
 use crate::error::ImportError;
 use crate::measure::{self, Measured};
 use crate::mesh::Mesh;
-use crate::part::{Face, Part};
+use crate::part::{Face, Part, Sweep};
 use crate::patches::{self, Made};
 use crate::spheres::Hollow;
 use crate::wires::{FINEST, Fine, outlined};
@@ -24,6 +24,7 @@ const MOST_EDGES: usize = 64;
 /// Of the tolerance, what patches are fitted within after one was measured to be farther off.
 const FINER: f64 = 0.7;
 const FINEST_FIT: f64 = 0.2;
+const HEALED: &str = "healed: with their whole shell, these faces lie inside out in the file: ";
 const NOT_COMPARED: &str = "a second reading of the file does not follow its products: units and placements of the \
                             result are not compared with it";
 
@@ -75,7 +76,24 @@ pub struct Imported {
 /// # Errors
 /// A fault of the file or of the part; or the first face that cannot be divided into patches within the tolerance.
 pub fn import(path: &Path, options: &Options) -> Result<Imported, ImportError> {
-    let mut part = read::read(path, options.solid.as_deref(), options.tolerance)?;
+    let mut is_swept_twice = false;
+    let first = import_by(path, options, Sweep::Start, &mut is_swept_twice);
+    // The other of two sweeps has its normal the other way: with the wrong one a sound file seems inside out.
+    let is_right = |result: &Result<Imported, ImportError>| {
+        result.as_ref().is_ok_and(|imported| !imported.report.iter().any(|line| line.contains(HEALED)))
+    };
+    if !is_swept_twice || is_right(&first) {
+        return first;
+    }
+    let others = [Sweep::Outline, Sweep::Outward, Sweep::Inward];
+    let mut others = others.into_iter().map(|sweep| import_by(path, options, sweep, &mut is_swept_twice));
+    others.find(is_right).unwrap_or(first)
+}
+
+/// Imports a part with surfaces that are swept twice chosen in one way.
+fn import_by(path: &Path, options: &Options, sweep: Sweep, is_swept_twice: &mut bool) -> Result<Imported, ImportError> {
+    let mut part = read::read(path, options.solid.as_deref(), options.tolerance, sweep)?;
+    *is_swept_twice = part.is_swept_twice;
     let reread = reread::read(path);
     match &reread {
         Some(reread) => reread.compare_outlines(&part, options.solid.is_none())?,
@@ -269,7 +287,6 @@ fn divided_within(
     let (quads, mesh, made) = fewest(part, fine, triangles, fit)?;
     let turned = check::check(part, &made).map_err(single)?;
     if !turned.is_empty() {
-        const HEALED: &str = "healed: with their whole shell, these faces lie inside out in the file: ";
         let mut part = part.clone();
         if part.remarks.iter().any(|remark| remark.starts_with(HEALED)) {
             let label = part.faces[turned[0]].label();
@@ -342,7 +359,9 @@ pub(crate) fn patched<'p>(
 fn refuse_far(part: &Part, measured: &Measured, tolerance: f64) -> Result<(), ImportError> {
     for ((off, face), which) in [(measured.out, "its patches are"), (measured.back, "it is")] {
         if off > tolerance {
-            let reason = format!("{which} up to {off:.6} mm off, the tolerance is {tolerance} mm");
+            let reason = format!(
+                "{which} up to {off:.6} mm off, the tolerance is {tolerance} mm"
+            );
             return Err(ImportError::too_much(part, face, reason));
         }
     }
@@ -356,7 +375,7 @@ mod tests {
     #[test]
     fn a_part_of_too_many_patches_is_refused_before_any_work() {
         let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/parts/perforated_plate.step");
-        let mut part = read::read(&file, None, 0.01).unwrap();
+        let mut part = read::read(&file, None, 0.01, Sweep::Start).unwrap();
         // 2 × ((8 + 35 × 4) / 2 + 35 − 1) in the planes with the holes and round corners, and one in each other face.
         assert_eq!(part.faces.iter().map(fewest_quads).sum::<usize>(), 2 * 108 + 4 + 39);
         assert!(refuse_too_many(&part).is_ok());

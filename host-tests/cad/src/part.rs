@@ -22,10 +22,28 @@ pub struct Part {
     pub precision: f64,
     /// Remarks for the person at the terminal.
     pub remarks: Vec<String>,
+    /// How the side of surfaces that are swept twice is chosen.
+    pub sweep: Sweep,
+    /// Whether there was one to choose.
+    pub is_swept_twice: bool,
     /// The remaining effort for it.
     pub effort: Effort,
     /// Tilings and patches that were found before.
     pub memory: Memory,
+}
+
+/// How a face takes one of two sweeps that are the same but for their sense.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Sweep {
+    /// The one that has an edge of it at its start.
+    #[default]
+    Start,
+    /// The one of which its outline encloses less than half.
+    Outline,
+    /// The one that bulges out of the solid.
+    Outward,
+    /// The one that bulges into it.
+    Inward,
 }
 
 /// A solid, or a shell by itself.

@@ -5,7 +5,7 @@ mod shape;
 mod statements;
 
 use crate::error::ImportError;
-use crate::part::Part;
+use crate::part::{Part, Sweep};
 use crate::remarks::without_remarks;
 use glam::{DAffine3, DMat3, DVec3};
 use shape::Gather;
@@ -39,7 +39,7 @@ struct Placed<'m> {
 ///
 /// # Errors
 /// A fault of the file, or a file without solids.
-pub fn read(path: &Path, only: Option<&str>, tolerance: f64) -> Result<Part, ImportError> {
+pub fn read(path: &Path, only: Option<&str>, tolerance: f64, sweep: Sweep) -> Result<Part, ImportError> {
     let file = path.display().to_string();
     let cannot = |cause| ImportError::Read { file: file.clone(), cause };
     let length = fs::metadata(path).map_err(cannot)?.len();
@@ -70,7 +70,7 @@ pub fn read(path: &Path, only: Option<&str>, tolerance: f64) -> Result<Part, Imp
         return Err(ImportError::Entity { file, id, kind, reason });
     }
     let numbers = Numbers::new(&statements, offsets);
-    let gathered = std::panic::catch_unwind(|| gather(&model, &file, only, &numbers, tolerance));
+    let gathered = std::panic::catch_unwind(|| gather(&model, &file, only, &numbers, tolerance, sweep));
     let mut part = gathered.unwrap_or_else(|_| {
         Err(ImportError::Syntax { file: file.clone(), message: "its entities do not fit together".to_owned() })
     })?;
@@ -85,6 +85,7 @@ fn gather(
     only: Option<&str>,
     numbers: &Numbers,
     tolerance: f64,
+    sweep: Sweep,
 ) -> Result<Part, ImportError> {
     let scene = model.scene();
     let mut placed = Vec::new();
@@ -128,7 +129,7 @@ fn gather(
         return Err(ImportError::TooMany { file: file.to_owned(), count, what: "faces", limit: MOST_FACES });
     }
     let units = scene.units();
-    let mut part = Part::default();
+    let mut part = Part { sweep, ..Part::default() };
     let scale = match &units.length {
         Some(unit) if unit.to_si > 0.0 && unit.to_si.is_finite() => unit.to_si * 1e3,
         _ => {

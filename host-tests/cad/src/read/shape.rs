@@ -4,7 +4,7 @@ use super::offset;
 use super::statements::Numbers;
 use crate::error::ImportError;
 use crate::nurbs::{Curve, MAX_DEGREE, Surface};
-use crate::part::{self, Edge, Face, Part, Use};
+use crate::part::{self, Edge, Face, Part, Sweep, Use};
 use glam::{DAffine3, DVec2, DVec3};
 use std::collections::HashMap;
 use step_io::scene::{self, NurbsCurve, NurbsSurface, Shell, SurfaceKind};
@@ -114,9 +114,10 @@ impl<'p> Gather<'p> {
     }
 
     /// The part of a surface that holds all edges of a face. A sphere that is swept twice, on either side of its axis,
-    /// has two such parts: there an edge at the start of the sweep decides, which lies at the start of the parameter; of
-    /// half a turn, which has an edge there in both, the outline.
-    fn part_of_edges(&self, parts: Vec<Surface>, loops: &[Vec<Use>], flip: bool) -> Option<Surface> {
+    /// has two such parts, with normals against each other: an edge at the start of the sweep decides, which lies at the
+    /// start of the parameter; of half a turn, which has an edge there in both, the outline. As a part of the surface may
+    /// have an edge there by chance, the importer tries the others of [`Sweep`] next.
+    fn part_of_edges(&mut self, parts: Vec<Surface>, loops: &[Vec<Use>], flip: bool) -> Option<Surface> {
         let edges: Vec<&Edge> = loops.iter().flatten().map(|used| &self.part.edges[used.edge]).collect();
         let holds = |part: &Surface| {
             let points = edges.iter().flat_map(|edge| [0.0, 0.3, 0.5, 0.7, 1.0].map(|share| edge.at(share)[0]));
@@ -142,7 +143,7 @@ impl<'p> Gather<'p> {
             sides.sum::<f64>() > 0.0
         };
         let mut fitting: Vec<Surface> = parts.into_iter().filter(holds).collect();
-        // Without edges, the part that has the solid behind it.
+        // Six times what lies behind the part.
         let volume = |part: &Surface| {
             const STEPS: u32 = 24;
             let centre = part.at(DVec2::new(part.range(0)[0], part.range(1)[0])).point;
@@ -151,11 +152,19 @@ impl<'p> Gather<'p> {
             let all = (0..STEPS * STEPS).map(|k| part.at(DVec2::new(at(k % STEPS, 0), at(k / STEPS, 1))));
             all.map(|jet| (jet.point - centre).dot(jet.cross())).sum::<f64>()
         };
-        let is_outward = |part: &Surface| edges.is_empty() && (volume(part) < 0.0) == flip;
+        self.part.is_swept_twice |= fitting.len() > 1 && !loops.is_empty();
         let starting: Vec<usize> = (0..fitting.len()).filter(|index| starts_sweep(&fitting[*index])).collect();
         let on_the_left = || starting.iter().copied().find(|index| is_on_the_left(&fitting[*index]));
-        let first = if starting.len() > 1 { on_the_left() } else { starting.first().copied() };
-        let first = first.or_else(|| fitting.iter().position(is_outward)).unwrap_or(0);
+        let bulges = |outward: bool| fitting.iter().position(|part| (volume(part) < 0.0) == (flip == outward));
+        let first = match self.part.sweep {
+            _ if edges.is_empty() || fitting.len() < 2 => bulges(true).filter(|_| edges.is_empty()),
+            Sweep::Start if starting.len() > 1 => on_the_left(),
+            Sweep::Start => starting.first().copied(),
+            Sweep::Outline => fitting.iter().position(is_on_the_left),
+            Sweep::Outward => bulges(true),
+            Sweep::Inward => bulges(false),
+        };
+        let first = first.unwrap_or(0);
         if first >= fitting.len() {
             return None;
         }

@@ -536,7 +536,7 @@ mod tests {
     }
 
     fn part(name: &str) -> (Reread, Part) {
-        (read(&path(name)).unwrap(), first::read(&path(name), None, 0.01).unwrap())
+        (read(&path(name)).unwrap(), first::read(&path(name), None, 0.01, crate::part::Sweep::Start).unwrap())
     }
 
     /// The errors for patches that are moved and scaled.
