@@ -136,7 +136,7 @@ fn closes(part: &Part, solid: usize, sheets: &[Sheet]) -> Result<(), ImportError
     });
     // One may pass along a triangle's side.
     if odd.count() > 1 {
-        let reason = "its patches do not close: a face or a part of one is missing";
+        let reason = "its patches do not close: a face or a part of one is missing; export the part again";
         return Err(ImportError::face(part.solids[solid].name.clone(), reason));
     }
     Ok(())

@@ -1,7 +1,14 @@
 //! The errors of a part, for the person who made it.
 
 use crate::part::Part;
+use std::fmt;
 use thiserror::Error;
+
+/// The remedy for edges, vertices and faces that do not meet within the tolerance.
+pub(crate) const HEAL: &str =
+    "repair the shape in the CAD program, or choose a tolerance above that distance (--tolerance)";
+/// The remedy for a face that is too much.
+const SPLIT: &str = "split the face in the CAD program and export the part again";
 
 /// Why a part was not imported. Faces and edges go by their names or numbers in the part, entities by their numbers in
 /// the file.
@@ -109,10 +116,10 @@ impl ImportError {
         Self::Face { face: face.into(), reason: reason.into(), index: None, is_too_many: false }
     }
 
-    /// About a face that was too much at once.
-    pub(crate) fn too_much(part: &Part, index: usize, reason: impl Into<String>) -> Self {
+    /// About a face that was too much at once: parts of it may not be.
+    pub(crate) fn too_much(part: &Part, index: usize, reason: impl fmt::Display) -> Self {
         let face = part.faces[index].label();
-        Self::Face { face, reason: reason.into(), index: Some(index), is_too_many: false }
+        Self::Face { face, reason: format!("{reason}; {SPLIT}"), index: Some(index), is_too_many: false }
     }
 
     /// About the face with the most patches of a part that takes too many.
@@ -125,11 +132,12 @@ impl ImportError {
     pub(crate) fn given_up(self, face: Option<String>) -> Self {
         match (self, face) {
             (Self::Face { face: last, .. }, Some(hardest)) if hardest != last => {
-                let reason = "with it the part was not divided into quads, and as much was tried as is worth it";
-                Self::face(hardest, reason)
+                let reason = "most of the search went into it, which reached its limit without a division of the part into \
+                              quads";
+                Self::face(hardest, format!("{reason}; {SPLIT}"))
             }
             (Self::Face { face, reason, .. }, _) => {
-                Self::face(face, format!("{reason}; as much was tried as is worth it"))
+                Self::face(face, format!("{reason} (the search reached its limit)"))
             }
             (other, _) => other,
         }

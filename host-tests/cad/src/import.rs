@@ -360,7 +360,7 @@ fn refuse_far(part: &Part, measured: &Measured, tolerance: f64) -> Result<(), Im
     for ((off, face), which) in [(measured.out, "its patches are"), (measured.back, "it is")] {
         if off > tolerance {
             let reason = format!(
-                "{which} up to {off:.6} mm off, the tolerance is {tolerance} mm"
+                "{which} up to {off:.6} mm off, the tolerance is {tolerance} mm: choose a greater one (--tolerance)"
             );
             return Err(ImportError::too_much(part, face, reason));
         }

@@ -91,7 +91,9 @@ pub fn make(mesh: &mut Mesh<'_>, tolerance: f64) -> Result<Vec<Made>, Vec<Import
         strips::cut(mesh, &cuts.into_iter().collect::<Vec<_>>());
     }
     let worst = (0..mesh.regions.len()).max_by_key(|face| mesh.regions[*face].quads.len()).unwrap_or(0);
-    let reason = format!("it does not come within {tolerance} mm by cutting");
+    let reason = format!(
+        "it does not come within {tolerance} mm by cutting, as it may within a greater tolerance (--tolerance)"
+    );
     Err(vec![ImportError::too_much(mesh.part, worst, reason)])
 }
 

@@ -60,7 +60,7 @@ fn refuse_pinched(part: &Part, face: usize) -> Result<(), ImportError> {
         let [first, second] = [other, *used].map(|used| part.edges[used.edge].label(used.edge));
         let reason = format!(
             "its outline touches itself at {}: its {first} and its {second} are 0 mm apart there, and what lies \
-             between has no width",
+             between has no width; move them apart in the CAD program",
             place(part.vertices[vertex])
         );
         return Err(ImportError::face(of.label(), reason));

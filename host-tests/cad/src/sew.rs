@@ -99,7 +99,7 @@ fn check_loops(part: &Part, near: f64) -> Result<(), ImportError> {
                 if end != start {
                     let reason = format!(
                         "the edges of a loop of it do not follow each other: {} begins {:.6} mm from the end of {}, \
-                         {near} mm count as nothing",
+                         {near} mm count as nothing; repair it in the CAD program",
                         part.edges[second.edge].label(second.edge),
                         part.vertices[end].distance(part.vertices[start]),
                         part.edges[first.edge].label(first.edge)
@@ -256,7 +256,7 @@ fn refuse_gaps(part: &Part, near: f64) -> Result<(), ImportError> {
         format!("; the nearest that has none either is {label} of {name}, {gap:.6} mm off")
     });
     let reason = format!(
-        "no other face has its {}{nearest}: the solid is open, and {near} mm count as nothing",
+        "no other face has its {}{nearest}: the solid is open, and {near} mm count as nothing; repair it in the CAD program",
         of.label(*edge)
     );
     Err(ImportError::face(part.faces[*face].label(), reason))

@@ -1,7 +1,7 @@
 //! Loops in the parameters of their surfaces: where each edge runs, how often a loop winds round a closed parameter,
 //! and where it passes a pole.
 
-use crate::error::ImportError;
+use crate::error::{HEAL, ImportError};
 use crate::mesh::{Mesh, Side};
 use crate::part::{Face, Part, Use};
 use crate::path::Path;
@@ -91,7 +91,7 @@ fn check_joint(face: &Face, from: DVec2, to: DVec2, limit: f64) -> Result<(), Im
     if gap <= near {
         return Ok(());
     }
-    Err(ImportError::face(face.label(), format!("a loop of it leaps {gap:.6} mm in its surface's parameters")))
+    Err(ImportError::face(face.label(), format!("a loop of it leaps {gap:.6} mm in its surface's parameters; {HEAL}")))
 }
 
 /// Whole periods that bring a point nearest to another.
@@ -188,7 +188,7 @@ fn trace_edge(mesh: &Mesh<'_>, face: &Face, used: Use, limit: f64) -> Result<Pat
     }
     if farthest > limit {
         let label = edge.label(used.edge);
-        return Err(ImportError::face(face.label(), format!("its {label} lies {farthest:.6} mm off it")));
+        return Err(ImportError::face(face.label(), format!("its {label} lies {farthest:.6} mm off it; {HEAL}")));
     }
     // Of a straight one two samples say all.
     let straight = |k: usize| feet[0].lerp(feet[STEPS], k as f64 / STEPS as f64);

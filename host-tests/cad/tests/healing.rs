@@ -167,7 +167,8 @@ fn a_vertex_beside_its_edge_is_taken_up_to_the_tolerance() {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/parts/vertex_off.step");
     import(&path, &Options::default()).unwrap();
     let message = import(&path, &Options { tolerance: 0.0002, ..Options::default() }).unwrap_err().to_string();
-    assert!(message.contains("0.000250 mm from its vertex"), "{message}");
+    assert!(message.contains("0.000250 mm from its vertex; repair the shape"), "{message}");
+    assert!(message.contains("(--tolerance)"), "{message}");
 }
 
 #[test]
@@ -202,6 +203,7 @@ fn an_outline_that_touches_itself_is_refused_by_face_and_edges() {
     let message = part("tangent_hole").unwrap_err();
     assert!(message.contains("(#17)") && message.contains("touches itself at (0.000, 15.000, 15.000) mm"), "{message}");
     assert_eq!(message.matches("edge #").count(), 2, "{message}");
+    assert!(message.ends_with("move them apart in the CAD program"), "{message}");
 }
 
 /// A hole of 10 mm that leaves a wall of half the tolerance in a box of 40 × 30 × 10 mm.

@@ -2,7 +2,7 @@
 
 use super::offset;
 use super::statements::Numbers;
-use crate::error::ImportError;
+use crate::error::{HEAL, ImportError};
 use crate::nurbs::{Curve, MAX_DEGREE, Surface};
 use crate::part::{self, Edge, Face, Part, Sweep, Use};
 use glam::{DAffine3, DVec2, DVec3};
@@ -220,7 +220,7 @@ impl<'p> Gather<'p> {
         } else {
             let gap = start.distance(points[0]).max(end.distance(points[1]));
             if gap > near {
-                return Err(format!("its {label} ends {gap:.6} mm from its vertex"));
+                return Err(format!("its {label} ends {gap:.6} mm from its vertex; {HEAL}"));
             }
         }
         let index = self.part.edges.len();
@@ -229,7 +229,7 @@ impl<'p> Gather<'p> {
             // It begins where its vertex is, and goes round once.
             let (share, gap) = edge_of.nearest(points[0]);
             if gap > near {
-                return Err(format!("its {label} passes {gap:.6} mm from its vertex"));
+                return Err(format!("its {label} passes {gap:.6} mm from its vertex; {HEAL}"));
             }
             edge_of.range = [0.0, 1.0].map(|turn| low + (high - low) * (share.rem_euclid(1.0) + turn));
         }
