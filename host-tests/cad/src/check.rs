@@ -216,8 +216,8 @@ mod tests {
         let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("tests/parts/{name}.step"));
         let mut part = read::read(&path, None, 0.01, crate::part::Sweep::Start).unwrap();
         sew::sew(&mut part, 0.01).unwrap();
-        heal::take_out_seams(&mut part);
-        turn::turn(&mut part, 0.01).unwrap();
+        let seams = heal::take_out_seams(&mut part);
+        turn::turn(&mut part, &seams, 0.01).unwrap();
         fault(&mut part);
         let manner = Manner { turning: Turning::Free, triangles: false };
         let made = crate::import::patched(&part, &Fine::new(), 0.01, manner).map_err(|errors| format!("{errors:?}"));

@@ -4,10 +4,21 @@
 //! in two.
 
 use crate::part::{Part, Use};
+use glam::DVec3;
 
-/// Takes the seams out of every face whose surface closes smoothly; says how many.
-pub fn take_out_seams(part: &mut Part) -> usize {
-    let mut count = 0;
+/// A seam that was taken out, seen from one of its ends.
+pub struct Seam {
+    /// The face that it closes.
+    pub face: usize,
+    /// Its vertex.
+    pub start: usize,
+    /// Its direction there, off the vertex.
+    pub along: DVec3,
+}
+
+/// Takes the seams out of every face whose surface closes smoothly, and gives them.
+pub fn take_out_seams(part: &mut Part) -> Vec<Seam> {
+    let mut seams = Vec::new();
     for face in 0..part.faces.len() {
         if part.faces[face].surface.closed == [false; 2] {
             continue;
@@ -17,7 +28,11 @@ pub fn take_out_seams(part: &mut Part) -> usize {
         if !all.iter().any(is_seam) {
             continue;
         }
-        count += all.iter().filter(|used| is_seam(used)).count() / 2;
+        for used in all.iter().filter(|used| is_seam(used)) {
+            let edge = &part.edges[used.edge];
+            let along = if used.reversed { -edge.at(1.0)[1] } else { edge.at(0.0)[1] };
+            seams.push(Seam { face, start: part.ends(*used)[0], along });
+        }
         let loops: Vec<Vec<Use>> = part.faces[face].loops.clone();
         let mut chained = Vec::new();
         for uses in loops {
@@ -39,5 +54,5 @@ pub fn take_out_seams(part: &mut Part) -> usize {
         }
         part.faces[face].loops = chained;
     }
-    count
+    seams
 }

@@ -101,9 +101,9 @@ fn import_by(path: &Path, options: &Options, sweep: Sweep, is_swept_twice: &mut 
     }
     sew::sew(&mut part, options.tolerance)?;
     refuse_too_many(&part)?;
-    heal::take_out_seams(&mut part);
+    let seams = heal::take_out_seams(&mut part);
     let gap = pinch::refuse(&part, options.tolerance)?;
-    turn::turn(&mut part, options.tolerance)?;
+    turn::turn(&mut part, &seams, options.tolerance)?;
     // A vertex may be as far off its edge, and the patches off that.
     let near = options.tolerance + part.precision.max(options.tolerance);
     let mut options = options.clone();

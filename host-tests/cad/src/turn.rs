@@ -5,9 +5,10 @@
 //!
 //! A loop on a surface that closes on itself bounds two faces, one on either side. Such a face may be turned by its
 //! sense, or by its loops: then it is the other part of the surface. The part is right that does not fold back along its
-//! edges onto its neighbours.
+//! edges onto its neighbours; if neither does, the one that has the seam of the file.
 
 use crate::error::ImportError;
+use crate::heal::Seam;
 use crate::mesh::Mesh;
 use crate::part::Part;
 use crate::trace::{self, Traced};
@@ -18,7 +19,7 @@ use glam::DVec3;
 ///
 /// # Errors
 /// A fault of a loop.
-pub fn turn(part: &mut Part, tolerance: f64) -> Result<(), ImportError> {
+pub fn turn(part: &mut Part, seams: &[Seam], tolerance: f64) -> Result<(), ImportError> {
     let mut inside_out = Vec::new();
     let mut borders = Vec::new();
     let mesh = Mesh::new(part);
@@ -33,7 +34,7 @@ pub fn turn(part: &mut Part, tolerance: f64) -> Result<(), ImportError> {
     for face in inside_out {
         reverse_loops(part, face, &mut borders);
     }
-    turn_the_fewer(part, &mut borders)
+    turn_the_fewer(part, seams, &mut borders)
 }
 
 /// The unit vectors from an edge into a face, at [`SHARES`] of the edge.
@@ -78,6 +79,21 @@ fn folds(face: usize, borders: &[Vec<Border>], sense: f64) -> bool {
     })
 }
 
+/// Whether the seams of a face go off its edges into it, as its loops run; `None` if it had none.
+fn holds_seams(part: &Part, face: usize, seams: &[Seam]) -> Option<bool> {
+    let of = &part.faces[face];
+    let into = |seam: &Seam| {
+        let used = of.loops.iter().flatten().find(|used| part.ends(**used)[0] == seam.start)?;
+        let edge = &part.edges[used.edge];
+        let along = if used.reversed { -edge.at(1.0)[1] } else { edge.at(0.0)[1] };
+        let normal = of.surface.normal(of.surface.locate(part.vertices[seam.start]).uv);
+        Some(normal.cross(along).normalize_or_zero().dot(seam.along.normalize_or_zero()))
+    };
+    let all: Vec<f64> = seams.iter().filter(|seam| seam.face == face).filter_map(into).collect();
+    let is_decided = !all.is_empty() && (all.iter().all(|into| *into > 0.1) || all.iter().all(|into| *into < -0.1));
+    is_decided.then(|| all[0] > 0.0)
+}
+
 /// Whether the surface of a face closes on itself, so that its loops bound another face on their other side.
 fn has_other_side(part: &Part, face: usize) -> bool {
     let surface = &part.faces[face].surface;
@@ -103,7 +119,7 @@ fn is_inside_out(part: &Part, face: usize, loops: &[Traced]) -> bool {
 }
 
 /// Turns, in each piece of the body, the faces that disagree with the most others.
-fn turn_the_fewer(part: &mut Part, borders: &mut [Vec<Border>]) -> Result<(), ImportError> {
+fn turn_the_fewer(part: &mut Part, seams: &[Seam], borders: &mut [Vec<Border>]) -> Result<(), ImportError> {
     let mut uses: Vec<Vec<(usize, bool)>> = vec![Vec::new(); part.edges.len()];
     for (face, of) in part.faces.iter().enumerate() {
         for used in of.loops.iter().flatten() {
@@ -140,15 +156,16 @@ fn turn_the_fewer(part: &mut Part, borders: &mut [Vec<Border>]) -> Result<(), Im
         for face in if these.len() <= those.len() { these } else { those } {
             let is_other_side = has_other_side(part, face);
             if is_other_side {
-                match [1.0, -1.0].map(|sense| folds(face, borders, sense)) {
-                    [true, false] => {
+                let folds = [1.0, -1.0].map(|sense| folds(face, borders, sense));
+                match (folds, holds_seams(part, face, seams)) {
+                    ([true, false], _) | ([false, false], Some(false)) => {
                         reverse_loops(part, face, borders);
                         let label = part.faces[face].label();
                         part.remarks
                             .push(format!("healed: the outline of {label} runs the wrong way round in the file"));
                         continue;
                     }
-                    [false, true] => {}
+                    ([false, true], _) | ([false, false], Some(true)) => {}
                     _ => {
                         let reason = "its outline runs the same way as its neighbours', and bounds two parts of its \
                                       surface: the file does not say which; export the part again, with the face split";

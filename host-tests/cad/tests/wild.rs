@@ -88,6 +88,12 @@ fn half_an_ellipsoid() {
     assert!(points.map(|point| point.y).fold(f64::INFINITY, f64::min) > -1e-6);
 }
 
+/// A quarter of a torus whose outline runs as its neighbours' do: along neither part of the surface it folds back.
+#[test]
+fn mirrored_elbow() {
+    comes_in("mirrored_elbow", [PI * 16.0 * 6.0 * PI, 8.0 * PI * 6.0 * PI + 2.0 * PI * 16.0]);
+}
+
 /// By 40,000 frusta along the profile's cubic B-spline; the kernel's own quadrature is 0.6 mm³ and 1.3 mm² off.
 #[test]
 fn spline_knob() {

@@ -603,8 +603,8 @@ mod tests {
     fn the_complement_of_a_torus_runs_against_the_file() {
         let (reread, mut part) = part("torus_cut");
         sew::sew(&mut part, 0.01).unwrap();
-        heal::take_out_seams(&mut part);
-        turn::turn(&mut part, 0.01).unwrap();
+        let seams = heal::take_out_seams(&mut part);
+        turn::turn(&mut part, &seams, 0.01).unwrap();
         reread.compare_senses(&part).unwrap();
         let face = part.faces.iter_mut().find(|face| face.kind == "torus").unwrap();
         let label = face.label();
