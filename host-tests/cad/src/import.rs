@@ -134,7 +134,14 @@ fn divided_somehow(mut part: Part, options: &Options) -> Result<Imported, Import
     let way = Way { hollow: Hollow::Whole, triangles: false };
     lightening(whole.clone(), way, options).or_else(|error| {
         whole.effort.renew();
-        lightening(whole, Way { triangles: true, ..way }, options).map_err(|_| error)
+        let next = lightening(whole.clone(), Way { triangles: true, ..way }, options);
+        next.or_else(|_| {
+            if whole.effort.is_spent() {
+                return Err(error);
+            }
+            whole.effort.renew();
+            lightening(Part { is_loose: true, ..whole }, way, options).map_err(|_| error)
+        })
     })
 }
 

@@ -8,6 +8,7 @@ use crate::path::Path;
 use glam::{DVec2, DVec3};
 
 /// The part and its cuts.
+#[derive(Clone)]
 pub struct Mesh<'p> {
     /// The part.
     pub part: &'p Part,
@@ -17,6 +18,8 @@ pub struct Mesh<'p> {
     pub wires: Vec<Wire>,
     /// A region a face.
     pub regions: Vec<Region>,
+    /// Regions that hand no cuts on.
+    pub loose: Vec<usize>,
 }
 
 /// A curve in space over `[0, 1]`.
@@ -115,7 +118,7 @@ impl<'p> Mesh<'p> {
         };
         let wires = part.edges.iter().enumerate().map(whole).collect();
         let regions = vec![Region::default(); part.faces.len()];
-        Self { part, nodes: part.vertices.clone(), wires, regions }
+        Self { part, nodes: part.vertices.clone(), wires, regions, loose: Vec::new() }
     }
 
     /// Position and derivative on a wire.

@@ -26,6 +26,8 @@ pub struct Part {
     pub sweep: Sweep,
     /// Whether there was one to choose.
     pub is_swept_twice: bool,
+    /// Whether faces to which cuts come back without end are tiled with the cuts that they have.
+    pub is_loose: bool,
     /// The remaining effort for it.
     pub effort: Effort,
     /// Tilings and patches that were found before.

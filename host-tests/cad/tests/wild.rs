@@ -94,6 +94,12 @@ fn mirrored_elbow() {
     comes_in("mirrored_elbow", [PI * 16.0 * 6.0 * PI, 8.0 * PI * 6.0 * PI + 2.0 * PI * 16.0]);
 }
 
+/// A left-handed turn of a thread, whose faces are divided at each half: cuts come back to them without end.
+#[test]
+fn thread_halved() {
+    comes_in("thread_halved", [1_772.503, 897.778]);
+}
+
 /// By 40,000 frusta along the profile's cubic B-spline; the kernel's own quadrature is 0.6 mm³ and 1.3 mm² off.
 #[test]
 fn spline_knob() {

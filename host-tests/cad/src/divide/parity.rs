@@ -157,13 +157,14 @@ fn exits(mesh: &Mesh<'_>, face: usize, entered: Option<usize>) -> Vec<usize> {
 /// the most cuts.
 pub fn balance(mesh: &mut Mesh<'_>) -> Result<(), ImportError> {
     let most = 4 * mesh.wires.len() + 400;
+    let before = (mesh.part.is_loose && mesh.loose.len() < 8).then(|| mesh.clone());
     let mut lengths = HashMap::new();
     // How often each face was, and where nothing is to be cut until a side of the face is.
     let mut asked = vec![0; mesh.regions.len()];
     let mut settled = vec![false; mesh.regions.len()];
     while mesh.wires.len() < most {
         let open = (0..mesh.regions.len()).find_map(|face| {
-            let cut = if settled[face] { None } else { wanted(mesh, face, &mut lengths) };
+            let cut = if settled[face] || mesh.loose.contains(&face) { None } else { wanted(mesh, face, &mut lengths) };
             settled[face] = cut.is_none();
             cut.map(|(place, at)| (face, place, at))
         });
@@ -177,6 +178,11 @@ pub fn balance(mesh: &mut Mesh<'_>) -> Result<(), ImportError> {
         cut_at(mesh, face, place, at);
     }
     let busiest = (0..asked.len()).max_by_key(|face| asked[*face]).unwrap_or(0);
+    if let Some(mut before) = before {
+        before.loose.push(busiest);
+        *mesh = before;
+        return balance(mesh);
+    }
     let reason = "cuts across it come back to it without end, as where it winds round more than once";
     Err(ImportError::too_much(mesh.part, busiest, reason))
 }
