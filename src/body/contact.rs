@@ -24,12 +24,10 @@ impl<D: Displacement> Body<'_, D> {
         match state.feature {
             Feature::Face(index) => {
                 let Some(face) = self.faces.get(usize::from(index)) else { return };
+                let at_pole = if self.has_poles { self.normal_at_pole(face, state, probe) } else { None };
+                let normal = at_pole.or_else(|| state.witness.normal(&face.patch)).unwrap_or(state.normal);
                 let away = probe - state.witness.surface.point;
-                let at_pole = if self.has_poles { self.plane_at_pole(face, state, probe, away) } else { None };
-                let (normal, gap) = at_pole.unwrap_or_else(|| {
-                    let normal = state.witness.normal(&face.patch).unwrap_or(state.normal);
-                    (normal, away.dot(normal))
-                });
+                let gap = away.dot(normal);
                 if gap < 0.0 {
                     let contact = state.contact;
                     match contact {
@@ -117,27 +115,26 @@ impl<D: Displacement> Body<'_, D> {
         self.set_contact(state, away, contact);
     }
 
-    /// Normal and signed gap at a pole, where the tangent around it is rounding: those of its vertex. The last normal
-    /// may be from across the face, because a step may end at a pole from anywhere.
+    /// The normal at a pole, where the tangent around it is rounding: that of its vertex. The last normal may be from
+    /// across the face, because a step may end at a pole from anywhere.
     ///
-    /// Beside a tip or above a pit the vertex's normal says "inside" to the wrong probes: if the cone of the meridians
-    /// says otherwise, its normal and gap count.
+    /// Beside a tip or above a pit the vertex's normal says "inside" to the wrong probes: where the cone of the
+    /// meridians says otherwise, its normal counts.
     #[inline(never)]
-    fn plane_at_pole(&self, face: &Face, state: &BodyWitness, probe: Vec3, away: Vec3) -> Option<(Vec3, f32)> {
+    fn normal_at_pole(&self, face: &Face, state: &BodyWitness, probe: Vec3) -> Option<Vec3> {
         let vertex = self.vertices.get(usize::from(self.pole_at(face, state.witness.parameters)?))?;
-        let outward = self.outward(vertex);
+        let (outward, towards) = (self.outward(vertex), probe - self.place(vertex));
         if outward == Vec3::ZERO {
             return None;
         }
-        let gap = away.dot(outward);
-        let cone = self.cone_at_pole(face, state, outward, probe - self.place(vertex));
-        Some(cone.filter(|cone| (cone.1 < 0.0) != (gap < 0.0)).unwrap_or((outward, gap)))
+        let cone = self.normal_of_cone(face, state, outward, towards);
+        let is_other = |normal: &Vec3| (towards.dot(*normal) < 0.0) != (towards.dot(outward) < 0.0);
+        cone.filter(is_other).or(Some(outward))
     }
 
-    /// Normal and signed gap over the cone of revolution whose axis is a pole's normal, with the slope of the meridian
-    /// at the witness point; `towards` leads from the pole to the probe. `None` on the axis, which is in no meridian's
-    /// plane.
-    fn cone_at_pole(&self, face: &Face, state: &BodyWitness, outward: Vec3, towards: Vec3) -> Option<(Vec3, f32)> {
+    /// The normal of the cone of revolution whose axis is a pole's normal, with the slope of the meridian at the witness
+    /// point, in the plane of a probe; `towards` leads from the pole to it. `None` on the axis, which is in every plane.
+    fn normal_of_cone(&self, face: &Face, state: &BodyWitness, outward: Vec3, towards: Vec3) -> Option<Vec3> {
         let pole = Pole::nearest(face.poles(), state.witness.parameters, &face.patch, self.size)?;
         let meridian = pole.meridian(&state.witness.surface);
         let rise = meridian.dot(outward);
@@ -147,8 +144,7 @@ impl<D: Displacement> Body<'_, D> {
             return None;
         }
         let slope = beside * (rise * inverse_sqrt(across));
-        let normal = (outward * sqrt_from_above(run.length_squared()) - slope) * inverse_sqrt(squared);
-        Some((normal, towards.dot(normal)))
+        Some((outward * sqrt_from_above(run.length_squared()) - slope) * inverse_sqrt(squared))
     }
 
     /// Sets the contact. Without an audit the witness point may be on the far side: no contact. A witness point that
