@@ -37,8 +37,8 @@ impl<D: Displacement> Body<'_, D> {
             .is_some_and(|(height, squared)| height < 0.0 && height * height > 0.5 * squared)
     }
 
-    /// A probe's height over the tangent plane at the witness point on a smooth edge, times a length; and the square of
-    /// its distance times that length. The normal is `t × m`, with `m` out of a face over the edge.
+    /// `(n·d, |n|²|d|²)` for a probe at the offset `d` from the witness point on a smooth edge, with the outward normal
+    /// `n = t × m`, not of length 1: `t` along the edge, `m` out of a face over it.
     fn height_over_smooth(&self, edge: &Edge, state: &BodyWitness) -> Option<(f32, f32)> {
         let [of, _] = edge.faces;
         let face = self.faces.get(usize::from(of.face))?;

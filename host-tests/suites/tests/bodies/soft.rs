@@ -327,8 +327,8 @@ fn moving(name: &str) -> Vec<(Mode, Modal)> {
 
 const PRESSED: [&str; 5] = ["capped_box", "ellipsoid_body", "rounded_cylinder", "sphere_body", "ellipsoid_poles"];
 
-/// What is left is the depth that two first orders do not predict: the normal turns, the witness point lags. Its positive
-/// ticks, of all that are dissipated.
+/// The maximum unexplained energy as a fraction of the dissipated energy. Only ticks that gain energy are added. The cause
+/// is the error of the predicted depth: the normal turns and the witness point lags within a tick.
 const MAX_UNEXPLAINED: f64 = 0.005;
 
 #[test]

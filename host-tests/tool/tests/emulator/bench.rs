@@ -15,8 +15,7 @@ struct Own {
     report: String,
 }
 
-/// All boards with their own bodies, built once: an image lies in one place, whatever its body, and each change of the
-/// body compiles it anew.
+/// All boards with their own bodies, built once: each other body replaces the image and is another compilation.
 static OWN: LazyLock<Vec<Own>> = LazyLock::new(|| {
     let own = |board| {
         let elf = build_bench(board, None, &Progress::new()).unwrap();
