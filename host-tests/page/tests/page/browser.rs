@@ -71,8 +71,10 @@ impl Page {
                 errors.push(error);
             }
         }))?;
-        tab.navigate_to(address)?;
         let page = Self { _browser: browser, tab, errors };
+        // A quarter of the pixels along each side: a processor draws them, and only a picture is looked at.
+        page.set_scale(0.25)?;
+        page.tab.navigate_to(address)?;
         // Until the page is there an expression finds nothing, or another page's world.
         let began = Instant::now();
         while page.ask("window.palpate?.ready").ok() != Some(Value::Bool(true)) {
@@ -124,11 +126,20 @@ impl Page {
 
     /// A picture of the page, PNG, of a size that no browser's own bars take part of.
     pub fn picture(&self) -> anyhow::Result<Vec<u8>> {
+        self.set_scale(1.0)?;
+        self.ask("palpate.drawn(3)")?;
+        let picture = self.tab.capture_screenshot(CaptureScreenshotFormatOption::Png, None, None, true)?;
+        self.set_scale(0.25)?;
+        Ok(picture)
+    }
+
+    /// Draws so many of the screen's pixels for each of the page's. What lies where stays.
+    fn set_scale(&self, device_scale_factor: f64) -> anyhow::Result<()> {
         let [width, height] = PICTURE;
         self.tab.call_method(Emulation::SetDeviceMetricsOverride {
             width,
             height,
-            device_scale_factor: 1.0,
+            device_scale_factor,
             mobile: false,
             scale: None,
             screen_width: None,
@@ -141,8 +152,7 @@ impl Page {
             display_feature: None,
             device_posture: None,
         })?;
-        self.ask("palpate.drawn(3)")?;
-        self.tab.capture_screenshot(CaptureScreenshotFormatOption::Png, None, None, true)
+        Ok(())
     }
 
     /// Whatever went wrong on the console so far.
