@@ -5,11 +5,13 @@ use crate::divide::{self, Manner, Turning};
 use crate::error::ImportError;
 use crate::measure::{self, Measured};
 use crate::mesh::Mesh;
-use crate::part::{Face, Part, Sweep};
+use crate::part::{Face, Part, Sweep, Use};
 use crate::patches::{self, Made};
 use crate::spheres::Hollow;
 use crate::wires::{FINEST, Fine, outlined};
 use crate::{check, emit, heal, picture, pinch, read, report, reread, sew, spheres, split, turn};
+use glam::DVec3;
+use std::f64::consts::FRAC_PI_4;
 use std::path::Path;
 
 /// How often faces that are too much at once are made easier.
@@ -170,6 +172,17 @@ fn refuse_too_many(part: &Part) -> Result<(), ImportError> {
     Err(ImportError::face(most.label(), reason))
 }
 
+/// When the rims of plates with holes are cut finely.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Rims {
+    /// Before anything else is done to the plate; none was yet.
+    First,
+    /// One was.
+    Used,
+    /// With all its other edges.
+    AsOthers,
+}
+
 /// How a part is tried.
 #[derive(Clone, Copy, Debug)]
 struct Way {
@@ -179,7 +192,27 @@ struct Way {
 }
 
 /// Divides a part, and as often as it does not succeed makes the faces easier that were too much.
-fn lightening(mut part: Part, way: Way, options: &Options) -> Result<Imported, ImportError> {
+fn lightening(part: Part, way: Way, options: &Options) -> Result<Imported, ImportError> {
+    let mut rims = Rims::First;
+    let found = lightening_by(part.clone(), way, &mut rims, options);
+    if rims != Rims::Used {
+        return found;
+    }
+    // What is fewer with finer rims is so for some parts only.
+    if found.is_ok() {
+        part.effort.for_better()
+    } else {
+        part.effort.renew()
+    };
+    match (found, lightening_by(part, way, &mut Rims::AsOthers, options)) {
+        (Ok(found), Ok(other)) if other.patches.len() < found.patches.len() => Ok(other),
+        (Err(_), other) => other,
+        (found, _) => found,
+    }
+}
+
+/// The same, one way.
+fn lightening_by(mut part: Part, way: Way, rims: &mut Rims, options: &Options) -> Result<Imported, ImportError> {
     spheres::without_poles(&mut part, way.hollow);
     split_the_large(&mut part, options.tolerance)?;
     let mut fine = Fine::new();
@@ -187,7 +220,7 @@ fn lightening(mut part: Part, way: Way, options: &Options) -> Result<Imported, I
     for _ in 0..ROUNDS {
         let errors = match divided(&part, &fine, way.triangles, options) {
             Err(errors) => errors,
-            Ok(done) => return Ok(fewer(part, &fine, done, way, options)),
+            Ok(done) => return Ok(fewer(part, &fine, done, way, *rims, options)),
         };
         too_many +=
             usize::from(errors.iter().any(|error| matches!(error, ImportError::Face { is_too_many: true, .. })));
@@ -200,7 +233,7 @@ fn lightening(mut part: Part, way: Way, options: &Options) -> Result<Imported, I
             if part.effort.is_spent() {
                 return Err(error.given_up(part.effort.hardest()));
             }
-            if !lightened(&mut part, face, &mut fine, options.tolerance)? {
+            if !lightened(&mut part, face, &mut fine, rims, options.tolerance)? {
                 return Err(error);
             }
         }
@@ -211,12 +244,12 @@ fn lightening(mut part: Part, way: Way, options: &Options) -> Result<Imported, I
 
 /// Where far more patches were made than there were quads, because cuts go on through face after face, the face with
 /// the most is made easier, as if it had been too much; the fewest patches win.
-fn fewer(mut part: Part, fine: &Fine, done: Divided, way: Way, options: &Options) -> Imported {
+fn fewer(mut part: Part, fine: &Fine, done: Divided, way: Way, mut rims: Rims, options: &Options) -> Imported {
     let (mut fine, mut best, mut busiest) = (fine.clone(), done.imported, done.busiest);
     part.effort.for_better();
     for _ in 0..SECOND_THOUGHTS {
         let Some(face) = busiest else { break };
-        if !lightened(&mut part, face, &mut fine, options.tolerance).is_ok_and(|is_lighter| is_lighter) {
+        if !lightened(&mut part, face, &mut fine, &mut rims, options.tolerance).is_ok_and(|is_lighter| is_lighter) {
             break;
         }
         spheres::without_poles(&mut part, way.hollow);
@@ -235,23 +268,57 @@ fn first(errors: Vec<ImportError>) -> ImportError {
 }
 
 /// Makes a face easier: its edges are cut finely, or it is split. Says whether anything could be done.
-fn lightened(part: &mut Part, face: usize, fine: &mut Fine, tolerance: f64) -> Result<bool, ImportError> {
+fn lightened(
+    part: &mut Part,
+    face: usize,
+    fine: &mut Fine,
+    rims: &mut Rims,
+    tolerance: f64,
+) -> Result<bool, ImportError> {
     let of = &part.faces[face];
     let edges: Vec<usize> = of.loops.iter().flatten().map(|used| used.edge).collect();
     let level = edges.iter().map(|edge| fine.get(edge).copied().unwrap_or(0)).min().unwrap_or(FINEST);
-    let mut refine = || fine.extend(edges.iter().map(|edge| (*edge, level + 1)));
+    let refine = |fine: &mut Fine| fine.extend(edges.iter().map(|edge| (*edge, level + 1)));
     let is_simple = if of.kind == "plane" { of.loops.len() == 2 } else { of.loops.len() <= 2 };
+    // Of a plate with holes, its bent rim alone: each hole then finds corners nearby, and keeps its few pieces.
+    let has_rim = *rims != Rims::AsOthers && of.kind == "plane" && of.loops.len() > 1;
+    let rim = if has_rim { bent_rim(part, face) } else { Vec::new() };
+    if !rim.is_empty() && !rim.iter().any(|edge| fine.contains_key(edge)) {
+        fine.extend(rim.into_iter().map(|edge| (edge, 1)));
+        *rims = Rims::Used;
+        return Ok(true);
+    }
     if is_simple && level == 0 {
-        refine();
+        refine(fine);
         return Ok(true);
     }
     if split::split(part, face, tolerance)? {
+        // Its pieces are easier: finer cuts, which all its neighbours would have to follow, may not be needed.
+        fine.retain(|edge, _| !edges.contains(edge));
         return Ok(true);
     }
     if level < FINEST {
-        refine();
+        refine(fine);
     }
     Ok(level < FINEST)
+}
+
+/// The bent edges of a face's largest loop; none where they are less than a quarter of it, as round corners are.
+fn bent_rim(part: &Part, face: usize) -> Vec<usize> {
+    let size = |uses: &Vec<Use>| {
+        let points = || uses.iter().flat_map(|used| (0..8).map(|k| part.edges[used.edge].at(f64::from(k) / 8.0)[0]));
+        points().fold(DVec3::NEG_INFINITY, DVec3::max).distance(points().fold(DVec3::INFINITY, DVec3::min))
+    };
+    let loops = part.faces[face].loops.iter();
+    let Some(outer) = loops.max_by(|a, b| size(a).total_cmp(&size(b))) else { return Vec::new() };
+    let length = |edges: &[usize]| edges.iter().map(|edge| part.edges[*edge].length()).sum::<f64>();
+    let all: Vec<usize> = outer.iter().map(|used| used.edge).collect();
+    let bends = |edge: &usize| {
+        let slope = |k: i32| part.edges[*edge].at(f64::from(k) / 8.0)[1];
+        (1..=8).any(|k| slope(k).angle_between(slope(0)) > FRAC_PI_4)
+    };
+    let bent: Vec<usize> = all.iter().copied().filter(bends).collect();
+    if length(&bent) < 0.25 * length(&all) { Vec::new() } else { bent }
 }
 
 /// Splits faces that are too much for a search, without trying.

@@ -248,6 +248,12 @@ impl<'p> Mesh<'p> {
         (length, turn.sum())
     }
 
+    /// The angle through which a stretch of a wire turns.
+    pub fn turn_of(&self, wire: usize, [from, to]: [f64; 2]) -> f64 {
+        let slope = |k: i32| self.at(wire, from + (to - from) * f64::from(k) / 16.0)[1].normalize_or_zero();
+        (0..16).map(|k| slope(k).angle_between(slope(k + 1))).filter(|turn| turn.is_finite()).sum()
+    }
+
     /// The parameters that cut a wire into pieces of one length.
     pub fn even(&self, wire: usize, pieces: usize) -> Vec<f64> {
         let points: Vec<_> = (0..=256).map(|k| self.at(wire, f64::from(k) / 256.0)[0]).collect();

@@ -103,7 +103,9 @@ fn thread_halved() {
 /// By 40,000 frusta along the profile's cubic B-spline; the kernel's own quadrature is 0.6 mm³ and 1.3 mm² off.
 #[test]
 fn spline_knob() {
-    comes_in("spline_knob", [4_488.598, 1_564.323]);
+    let imported = comes_in("spline_knob", [4_488.598, 1_564.323]);
+    // Its pieces are short at the bend and long elsewhere: of one length they would be 8 instead of 5.
+    assert!(imported.patches.len() <= 25);
 }
 
 /// CATIA and Rhino leave out what STEP lets them.
