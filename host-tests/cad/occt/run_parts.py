@@ -4,7 +4,8 @@
 CadQuery goes into a virtual environment in target/occt; nothing else on the machine is touched. The tool is the one in
 PALPATE_TOOL, or cargo builds it. Part N is of kind N modulo 7 in each of three dialects by turns (parts.py); compare.py
 imports and compares; an import may take SECONDS of a processor, its queries three times that. Ends with 1 if a part is
-silently wrong, if a planted fault is not noticed, or if fewer parts than LEAST_IMPORTED are imported.
+silently wrong, if a planted fault is not noticed, if fewer parts than LEAST_IMPORTED are imported, or if they take more
+than MOST_PATCHES for each face.
 """
 
 from __future__ import annotations
