@@ -53,16 +53,18 @@ impl<D: Displacement> Body<'_, D> {
             }
             Feature::Edge(index) => {
                 let Some(edge) = self.edges.get(usize::from(index)) else { return };
+                // On the axis of a cone the probe is in the planes of all its edges, and no face takes it in: of smooth
+                // edges, or of ones that a fit has left with kinks.
+                let is_sunk = || state.no_face_took_probe && self.is_below(edge, state);
                 let is_outward = match edge.kind {
                     EdgeKind::Open => None,
-                    EdgeKind::Convex => Some(state.no_face_took_probe || state.gap >= 0.0),
-                    EdgeKind::Reflex => Some(false),
-                    // On the axis of a cone the probe is in the planes of all its edges, and no face takes it in.
-                    EdgeKind::Smooth if state.gap >= 0.0 => {
-                        Some(!(state.no_face_took_probe && self.is_below_smooth(edge, state)))
+                    EdgeKind::Convex => {
+                        Some((state.no_face_took_probe || state.gap >= 0.0) && !(self.has_poles && is_sunk()))
                     }
+                    EdgeKind::Reflex => Some(false),
+                    EdgeKind::Smooth if state.gap >= 0.0 => Some(!is_sunk()),
                     EdgeKind::Smooth => Some(self.is_above_smooth(edge, state)),
-                    EdgeKind::Mixed => Some(state.gap >= 0.0),
+                    EdgeKind::Mixed => Some(state.gap >= 0.0 && !(self.has_poles && is_sunk())),
                 };
                 self.update_contact_at_border(state, is_outward);
             }

@@ -21,7 +21,7 @@ impl<D: Displacement> Body<'_, D> {
     /// point.
     #[inline(never)]
     pub(super) fn is_above_smooth(&self, edge: &Edge, state: &BodyWitness) -> bool {
-        let Some((height, squared)) = self.height_over_smooth(edge, state) else { return false };
+        let Some((height, squared)) = self.height_over(edge, &edge.faces[0], state) else { return false };
         let hollowest = edge
             .faces
             .iter()
@@ -30,17 +30,21 @@ impl<D: Displacement> Body<'_, D> {
         is_steep(height, squared, hollowest)
     }
 
-    /// Whether a probe is below a smooth edge, nearer to the normal than to the tangent plane.
+    /// Whether a probe is below both faces of an edge, nearer to their normals than to their tangent planes. In front of
+    /// no edge is it: the normals would have to be more than 270° apart. Of a smooth edge one normal is enough.
     #[inline(never)]
-    pub(super) fn is_below_smooth(&self, edge: &Edge, state: &BodyWitness) -> bool {
-        self.height_over_smooth(edge, state)
-            .is_some_and(|(height, squared)| height < 0.0 && height * height > 0.5 * squared)
+    pub(super) fn is_below(&self, edge: &Edge, state: &BodyWitness) -> bool {
+        let is_below = |of: &EdgeFace| {
+            let height = self.height_over(edge, of, state);
+            height.is_some_and(|(height, squared)| height < 0.0 && height * height > 0.5 * squared)
+        };
+        let [first, second] = &edge.faces;
+        is_below(first) && (edge.kind == EdgeKind::Smooth || is_below(second))
     }
 
-    /// `(n·d, |n|²|d|²)` for a probe at the offset `d` from the witness point on a smooth edge, with the outward normal
-    /// `n = t × m`, not of length 1: `t` along the edge, `m` out of a face over it.
-    fn height_over_smooth(&self, edge: &Edge, state: &BodyWitness) -> Option<(f32, f32)> {
-        let [of, _] = edge.faces;
+    /// `(n·d, |n|²|d|²)` for a probe at the offset `d` from the witness point on an edge, with the outward normal
+    /// `n = t × m` of one of its faces, not of length 1: `t` along the edge, `m` out of the face over it.
+    fn height_over(&self, edge: &Edge, of: &EdgeFace, state: &BodyWitness) -> Option<(f32, f32)> {
         let face = self.faces.get(usize::from(of.face))?;
         let Some(Side::Edge { separator, reversed, .. }) = face.sides.get(usize::from(of.side)) else { return None };
         let across = match self.cross(edge, separator, state.witness.parameters[0]) {

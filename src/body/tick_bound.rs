@@ -387,9 +387,13 @@ impl<const KINDS: u32> Body<'_, Rigid<KINDS>> {
         self.is_ruled(edge.faces[0]) as u32 + self.is_ruled(edge.faces[1]) as u32
     }
 
-    /// [`Body::update_contact`] on an edge: `is_above_smooth`.
+    /// [`Body::update_contact`] on an edge: `is_above_smooth` or `is_below`.
     const fn contact_on_edge(&self, edge: &Edge<'_>) -> TickWork {
-        if matches!(edge.kind, EdgeKind::Smooth) { curves(self.is_ruled(edge.faces[0]) as u32) } else { NO_WORK }
+        match edge.kind {
+            EdgeKind::Smooth => curves(self.is_ruled(edge.faces[0]) as u32),
+            EdgeKind::Convex | EdgeKind::Mixed if self.has_poles => curves(self.ruled(edge)),
+            EdgeKind::Convex | EdgeKind::Mixed | EdgeKind::Reflex | EdgeKind::Open => NO_WORK,
+        }
     }
 
     /// [`Body::update_contact`] on a face: `releases_at_border`, at one side or a corner, with the vertex that is asked.

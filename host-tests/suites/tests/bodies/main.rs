@@ -21,4 +21,5 @@ mod signs;
 mod soft;
 mod tour;
 mod tracker;
+mod uneven;
 mod walk;

@@ -1,5 +1,6 @@
 //! On the axis of bodies of revolution, and within a micrometre of it: above and below domes, cones, pits and tips that
-//! meet, from a standing start and on the way through the surface. The profile tells inside from outside.
+//! meet, from a standing start and on the way through the surface. The profile tells inside from outside: of bodies
+//! that are drawn here, of the shipped ones, and of parts that the importer made.
 
 use super::shapes::{patch, row};
 use super::{ON_SURFACE, from_environment};
@@ -28,14 +29,41 @@ struct Profile {
     name: &'static str,
     pieces: Vec<Vec<[f64; 3]>>,
     stretch: DVec3,
+    /// The model, if it is not drawn by the profile.
+    file: Option<&'static str>,
+}
+
+/// A model file and the profile that it should have. The importer keeps the part's vertices, so that within a micrometre
+/// of the axis what it made is nearer to the profile than a probe can tell.
+macro_rules! of_file {
+    ($file:literal, $profile:expr) => {
+        Profile { name: $file, file: Some(include_str!(concat!("../../../", $file))), ..$profile }
+    };
+}
+
+/// A circle's arc from one angle to the other, by less than half a turn.
+fn arc([x, z]: [f64; 2], radius: f64, [from, to]: [f64; 2]) -> Vec<[f64; 3]> {
+    let weight = (0.5 * (to - from)).cos();
+    let at = |angle: f64, far: f64, weight: f64| [x + far * angle.cos(), z + far * angle.sin(), weight];
+    vec![at(from, radius, 1.0), at(0.5 * (from + to), radius / weight, weight), at(to, radius, 1.0)]
+}
+
+/// A disc, a wall to a rim, and an arc from the rim over its centre to the axis.
+fn turned(rim: [f64; 2], centre: [f64; 2]) -> Profile {
+    let radius = (rim[0] - centre[0]).hypot(rim[1] - centre[1]);
+    let tip = (-centre[0] / radius).acos();
+    let mut pieces = profile("", &[&[[0.0, 0.0], [rim[0], 0.0]], &[[rim[0], 0.0], rim]]).pieces;
+    let mut over = arc(centre, radius, [(rim[1] - centre[1]).atan2(rim[0] - centre[0]), tip]);
+    over[2][0] = 0.0;
+    pieces.push(over);
+    Profile { name: "", pieces, stretch: DVec3::ONE, file: None }
 }
 
 fn profile(name: &'static str, pieces: &[&[[f64; 2]]]) -> Profile {
     let pieces = pieces.iter().map(|piece| piece.iter().map(|[x, z]| [*x, *z, 1.0]).collect()).collect();
-    Profile { name, pieces, stretch: DVec3::ONE }
+    Profile { name, pieces, stretch: DVec3::ONE, file: None }
 }
 
-/// The shipped `ellipsoid_poles`, and others.
 fn profiles() -> Vec<Profile> {
     let quarters = |stretch| Profile {
         name: "ellipsoid",
@@ -44,10 +72,33 @@ fn profiles() -> Vec<Profile> {
             vec![[1.0, 0.0, 1.0], [1.0, 1.0, FRAC_1_SQRT_2], [0.0, 1.0, 1.0]],
         ],
         stretch,
+        file: None,
     };
     vec![
-        quarters(DVec3::new(50.0, 35.0, 25.0)),
-        quarters(DVec3::new(8.0, 8.0, 30.0)),
+        of_file!("../models/sphere_body.toml", quarters(DVec3::splat(50.0))),
+        of_file!("../models/ellipsoid_body.toml", quarters(DVec3::new(50.0, 35.0, 25.0))),
+        of_file!("../models/ellipsoid_poles.toml", quarters(DVec3::new(50.0, 35.0, 25.0))),
+        of_file!("data/ellipsoid_tip.toml", quarters(DVec3::new(8.0, 8.0, 30.0))),
+        of_file!(
+            "../models/rounded_cylinder.toml",
+            profile(
+                "",
+                &[&[[0.0, -25.0], [22.0, -25.0]], &[[22.0, -25.0], [22.0, 25.0]], &[[22.0, 25.0], [0.0, 25.0]]]
+            )
+        ),
+        of_file!("data/cad_crown.toml", turned([10.0, 5.0], [-2.0, 5.0 - 756_f64.sqrt()])),
+        of_file!("data/cad_steep_crown.toml", turned([10.0, 5.0], [-9.0, -1.244_997_998_398])),
+        of_file!("data/cad_pit.toml", turned([14.0, 14.0], [3.574_675_324_675, 14.204_545_454_545])),
+        of_file!(
+            "data/cad_dome.toml",
+            Profile {
+                pieces: vec![
+                    vec![[0.0, 0.0, 1.0], [1.0, 0.0, 1.0]],
+                    vec![[1.0, 0.0, 1.0], [1.0, 1.0, FRAC_1_SQRT_2], [0.0, 1.0, 1.0]],
+                ],
+                ..quarters(DVec3::new(12.0, 12.0, 7.0))
+            }
+        ),
         profile("cone on a disc", &[&[[0.0, 0.0], [15.0, 0.0]], &[[15.0, 0.0], [0.0, 20.0]]]),
         profile("needle", &[&[[0.0, 0.0], [1.5, 0.0]], &[[1.5, 0.0], [0.0, 30.0]]]),
         profile("spline knob", &[&[[0.0, 0.0], [8.0, 0.0]], &[[8.0, 0.0], [16.0, 8.0], [4.0, 20.0], [0.0, 20.0]]]),
@@ -69,6 +120,9 @@ fn profiles() -> Vec<Profile> {
 
 impl Profile {
     fn model(&self) -> String {
+        if let Some(text) = self.file {
+            return text.to_owned();
+        }
         let mut text = "name = \"axis\"\nunit = \"mm\"\n".to_owned();
         for piece in &self.pieces {
             for [x, y] in [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]] {
