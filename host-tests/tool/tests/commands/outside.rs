@@ -65,10 +65,10 @@ fn a_crate_outside_of_the_repository_bakes_a_shipped_model_and_finds_a_closest_p
     let [library, bake] = ["", "host-tests/bake"].map(|path| repository().join(path));
     let manifest = fs::read_to_string(folder.join("Cargo.toml"))?;
     assert!(manifest.trim_end().ends_with("[dependencies]"), "cargo new makes another manifest: {manifest}");
-    // The first lines of a profile are for the baking, which takes ten times as long without.
+    // The profile is for the baking, which takes ten times as long without.
     let more = format!(
         "palpate = {{ path = {library:?} }}\n\n[build-dependencies]\npalpate-bake = {{ path = {bake:?} }}\n\n\
-         [profile.dev.build-override]\nopt-level = 1\n"
+         [profile.dev.package.palpate]\nopt-level = 1\n\n[profile.dev.package.palpate-bake]\nopt-level = 1\n"
     );
     fs::write(folder.join("Cargo.toml"), manifest + &more)?;
     // The versions that are there without a network.
