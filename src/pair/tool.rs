@@ -36,9 +36,9 @@ pub struct Tool<'a> {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum ToolError {
-    /// A half length is negative or not finite.
+    /// A half length is negative, above 1e6 m, or no number.
     Half,
-    /// The radius is negative or not finite.
+    /// The radius is negative, above 1e6 m, or no number.
     Radius,
     /// The core is a body that is not convex.
     NotConvex,
@@ -47,8 +47,8 @@ pub enum ToolError {
 impl fmt::Display for ToolError {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str(match self {
-            Self::Half => "half: half lengths must be finite and not negative",
-            Self::Radius => "radius: must be finite and not negative",
+            Self::Half => "half: half lengths must be 0 to 1e6 m",
+            Self::Radius => "radius: must be 0 to 1e6 m",
             Self::NotConvex => "core: the body of a tool must be certified convex; split it into convex tools",
         })
     }
@@ -60,7 +60,7 @@ impl<'a> Tool<'a> {
     /// A tool of a core and a radius, metres.
     ///
     /// # Errors
-    /// A length that is negative or not finite, and a core that is not convex.
+    /// A length that is negative, above 1e6 m or no number, and a core that is not convex.
     pub const fn new(core: Core<'a>, radius: f32) -> Result<Self, ToolError> {
         let bad = match &core {
             Core::Point => None,
@@ -167,6 +167,9 @@ pub(super) fn unit(vector: Vec3) -> Vec3 {
     if squared > f32::MIN_POSITIVE { vector * inverse_sqrt(squared) } else { Vec3::ZERO }
 }
 
+/// Above it squares and products of lengths leave the numbers; NaN fails too.
+const MAX_LENGTH_M: f32 = 1.0e6;
+
 const fn is_length(x: f32) -> bool {
-    x >= 0.0 && x < f32::INFINITY
+    x >= 0.0 && x <= MAX_LENGTH_M
 }

@@ -56,7 +56,10 @@ pub fn read_poses(path: &Path, model: &Model) -> anyhow::Result<Vec<(DQuat, DVec
         let [w, x, y, z, px, py, pz] = numbers[..] else { bail!("a pose has seven numbers") };
         let (turn, length) = (DQuat::from_xyzw(x, y, z, w), DQuat::from_xyzw(x, y, z, w).length());
         let file = path.display();
-        ensure!((length - 1.0).abs() <= ROUNDED, "{file}:{line}: qw, qx, qy, qz has length {length}, not 1");
+        ensure!(
+            (length - 1.0).abs() <= ROUNDED,
+            "{file}:{line}: qw, qx, qy, qz has length {length}, not 1; give a unit quaternion"
+        );
         Ok((turn.normalize(), DVec3::new(px, py, pz) / per_metre))
     };
     rows.into_iter().map(pose).collect()

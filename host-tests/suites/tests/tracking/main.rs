@@ -2,6 +2,7 @@
 //! variables make its runs long.
 
 mod certificates;
+mod golden_pairs;
 mod guarantee;
 mod limits;
 mod pairs;

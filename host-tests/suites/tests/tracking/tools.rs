@@ -11,14 +11,14 @@ use palpate_suites::repository;
 use palpate_truth::generate::Random;
 
 /// A body of the boards' folder, and its middle in the model's frame.
-fn body(name: &str) -> (Body<'static>, DVec3) {
+pub fn body(name: &str) -> (Body<'static>, DVec3) {
     let bytes = std::fs::read(repository("boards/bodies").join(name).with_extension("palp")).expect("it is there");
     let file = BakedFile::read(&bytes).expect("it is a body");
     (file.body.to_body().expect("its tables fit"), file.model.centre)
 }
 
 /// A pose of the tool in the frame of a body's tables.
-fn placement(turn: DQuat, origin: DVec3) -> Placement {
+pub fn placement(turn: DQuat, origin: DVec3) -> Placement {
     let axes = DMat3::from_quat(turn);
     Placement {
         axes: [axes.x_axis, axes.y_axis, axes.z_axis].map(|axis| axis.as_vec3()),
@@ -27,7 +27,12 @@ fn placement(turn: DQuat, origin: DVec3) -> Placement {
     }
 }
 
-fn direction(random: &mut Random) -> DVec3 {
+/// Whether the tracker asks for a location.
+pub fn located_again(status: ToolStatus) -> bool {
+    matches!(status, ToolStatus::Behind | ToolStatus::Jumped)
+}
+
+pub fn direction(random: &mut Random) -> DVec3 {
     let mut coordinate = || random.between(-1.0, 1.0);
     loop {
         let drawn = DVec3::new(coordinate(), coordinate(), coordinate());
@@ -44,7 +49,7 @@ fn turn(random: &mut Random) -> DQuat {
 /// Half lengths of solids: a point, a segment and a box, a third of the ball's radius long.
 const HALVES: [[f64; 3]; 3] = [[0.0; 3], [0.0, 0.0, 0.4], [0.4, 0.25, 0.15]];
 
-fn core(half: DVec3) -> Core<'static> {
+pub fn core(half: DVec3) -> Core<'static> {
     let half = half.as_vec3();
     match half {
         Vec3 { x: 0.0, y: 0.0, z: 0.0 } => Core::Point,
@@ -54,12 +59,12 @@ fn core(half: DVec3) -> Core<'static> {
 }
 
 /// The radius of the ball, by its own table.
-fn radius(ball: &Body) -> f64 {
+pub fn radius(ball: &Body) -> f64 {
     0.5 * f64::from(ball.size())
 }
 
 /// From the centre of a ball to a box, less the radius: a closed form.
-fn from_ball(ball: f64, half: DVec3, turn: DQuat, origin: DVec3) -> f64 {
+pub fn from_ball(ball: f64, half: DVec3, turn: DQuat, origin: DVec3) -> f64 {
     let centre = turn.inverse() * -origin;
     (centre - centre.clamp(-half, half)).length() - ball
 }

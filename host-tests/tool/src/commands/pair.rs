@@ -39,7 +39,7 @@ pub struct Arguments {
     #[arg(long, value_name = "TOOL")]
     tool: String,
     /// Radius of the ball around the core.
-    #[arg(long, value_name = "R", default_value_t = 0.0)]
+    #[arg(long, value_name = "R", default_value_t = 0.0, allow_hyphen_values = true)]
     radius: f64,
     /// Poses (CSV with a header).
     #[arg(long, value_name = "IN.csv")]
@@ -85,7 +85,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
             _ => (Core::Point, DVec3::ZERO),
         },
         None => {
-            let file = ModelFile::read(Path::new(&arguments.tool))?;
+            let file = ModelFile::read(Path::new(&arguments.tool)).with_context(|| {
+                format!("--tool {}: give point, segment:H, box:X,Y,Z, or a convex body's model", arguments.tool)
+            })?;
             let baked = bake(&file, &file.model()?)?;
             tool_body = baked.tables.to_body()?;
             (Core::Body(&tool_body), baked.centre)

@@ -57,8 +57,9 @@ fn bad_input_is_refused_and_nothing_is_written() -> Result<(), Box<dyn Error>> {
         ("segment:1,2", row("1,0,0,0,0,0,0"), &[], "give segment:H"),
         ("box:1,2", row("1,0,0,0,0,0,0"), &[], "give box:X,Y,Z"),
         ("box:1,2,x", row("1,0,0,0,0,0,0"), &[], "\"x\" is not a number"),
-        ("point", row("1,0,0,0,0,0,0"), &["--radius=-1"], "radius: must be finite and not negative"),
-        ("no-such-tool", row("1,0,0,0,0,0,0"), &[], "no-such-tool: cannot be read"),
+        ("point", row("1,0,0,0,0,0,0"), &["--radius", "-1"], "--radius -1: radius: must be 0 to 1e6 m"),
+        ("segment:1e30", row("1,0,0,0,0,0,0"), &[], "segment:1e30 --radius 0: half: half lengths must be 0 to 1e6 m"),
+        ("no-such-tool", row("1,0,0,0,0,0,0"), &[], "give point, segment:H, box:X,Y,Z, or a convex body's model"),
     ] {
         let (run, output) = pair(tool, &poses, options)?;
         let message = String::from_utf8_lossy(&run.stderr);
