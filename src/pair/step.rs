@@ -105,8 +105,14 @@ impl Pair {
     ///
     /// The distance never rises by more than rounding: the full step if the lemma promises a quarter of the slope,
     /// otherwise the model with the largest promise, and its fraction.
-    pub(super) fn step(&mut self, body: &Body, region: &Region, placement: &Placement) -> Moved {
-        let joint = Joint::new(self, body, region, placement);
+    /// The body's point keeps the parameters that are `held`.
+    pub(super) fn step(&mut self, body: &Body, region: &Region, placement: &Placement, held: [bool; 2]) -> Moved {
+        let mut joint = Joint::new(self, body, region, placement);
+        for (axis, is_held) in held.into_iter().enumerate() {
+            if is_held {
+                (joint.lower[axis], joint.upper[axis]) = (0.0, 0.0);
+            }
+        }
         let squared = joint.difference.length_squared();
         let Some((step, slope)) = joint.plan(self, body, region) else { return Moved::AtRest };
         let [u, v, r, s, _] = step;

@@ -132,6 +132,44 @@ impl<'a> Tool<'a> {
     }
 }
 
+impl Tool<'_> {
+    /// Half the edges of a box, and quarters of a segment: their middles and half lengths. An edge that crosses two of
+    /// the body's touches at two places.
+    pub(super) fn edges(&self) -> impl Iterator<Item = (Vec3, Vec3)> {
+        let (half, pieces) = match self.core {
+            Core::Box { half } => (half, 2_u8),
+            Core::Segment { half } => ([0.0, 0.0, half], 4),
+            Core::Point | Core::Body(_) => ([0.0; 3], 0),
+        };
+        (0..12_usize).flat_map(move |index| {
+            let (along, signs) = (index / 4, index % 4);
+            let across = [(along + 1) % 3, (along + 2) % 3];
+            let is_double = (0..2).any(|side| signs >> side & 1 == 1 && half[across[side]] <= 0.0);
+            let mut middle = [0.0; 3];
+            for (side, axis) in across.into_iter().enumerate() {
+                middle[axis] = if signs >> side & 1 == 1 { half[axis] } else { -half[axis] };
+            }
+            let mut piece = [0.0; 3];
+            piece[along] = half[along] / f32::from(pieces);
+            let pieces = if half[along] > 0.0 && !is_double { pieces } else { 0 };
+            (0..pieces).map(move |number| {
+                middle[along] = piece[along] * f32::from(2 * number + 1) - half[along];
+                (Vec3::from_array(middle), Vec3::from_array(piece))
+            })
+        })
+    }
+
+    /// How far the core reaches along each axis of its frame, at most, metres.
+    pub(super) fn extents(&self) -> Vec3 {
+        match self.core {
+            Core::Point => Vec3::ZERO,
+            Core::Segment { half } => vec3(0.0, 0.0, half),
+            Core::Box { half } => Vec3::from_array(half),
+            Core::Body(body) => Vec3::splat(body.size()),
+        }
+    }
+}
+
 /// Where the core's point may be: in a box of its coordinates, or on the faces of a body.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Region<'a> {
@@ -140,9 +178,12 @@ pub(super) enum Region<'a> {
 }
 
 impl Region<'_> {
-    /// A single point.
-    pub const fn point(middle: Vec3) -> Self {
-        Self::Solid { middle, half: Vec3::ZERO }
+    /// The region if it is a solid, otherwise the origin.
+    pub const fn solid(&self) -> Region<'static> {
+        match self {
+            Self::Solid { middle, half } => Region::Solid { middle: *middle, half: *half },
+            Self::Surface(_) => Region::Solid { middle: Vec3::ZERO, half: Vec3::ZERO },
+        }
     }
 
     /// The nearest point to another, in the tool's frame, and the face of the body that holds it with its parameters.

@@ -5,11 +5,13 @@ use super::common_normal;
 use super::step::{Foot, Moved, Pair};
 use super::tool::{Core, Region, Tool};
 use crate::body::{Body, EdgeKind};
-use crate::math::{Vec3, sqrt};
+use crate::math::{Vec3, sqrt, sqrt_from_above};
 use crate::track::Placement;
 
 /// Corners of a core that are tracked.
 const CORNERS: usize = 8;
+/// Pieces of a core's edges that are tracked: two of each of a box.
+const EDGES: usize = 24;
 /// Other minima of a body that is not convex that are tracked.
 const RIVALS: usize = 4;
 /// Cells that the audit visits in a tick by default.
@@ -20,6 +22,8 @@ pub const MAX_CELLS: u16 = 16_384;
 const MAX_STEPS: u32 = 48;
 /// Steps without a fall of the distance after which a descent ends.
 const MAX_STALLS: u32 = 12;
+/// Maximum steps of a pair in a tick: one more after each switch.
+const MAX_SWITCHES: u8 = 3;
 /// Rounds of projections in turn before the first descent of a location.
 const ROUNDS: usize = 3;
 /// Relative to the size: minima that are farther than the pair by less are tracked beside it.
@@ -30,6 +34,8 @@ const TOUCHING: f32 = 1.0e-6;
 const NEARER: f32 = 3.0e-8;
 /// Relative to the size: witness points nearer than this are those of one minimum.
 const SAME: f32 = 1.0e-3;
+/// Gap below which a part of the core is followed in every tick, metres: more than a proxy closes in one.
+const REACH_M: f32 = 1.5e-3;
 /// Motion of the core between two ticks, relative to the body's size, above which it has jumped: locate it again.
 const JUMP: f32 = 0.03;
 
@@ -71,14 +77,32 @@ pub struct Closest {
 pub struct ToolWitness {
     pair: Pair,
     /// The core's corners, each with its nearest point of the body.
-    corners: [Option<Pair>; CORNERS],
-    rivals: [Option<Pair>; RIVALS],
+    pub(super) corners: [Option<Part>; CORNERS],
+    /// The core's edges, each with its nearest pair.
+    pub(super) edges: [Option<Part>; EDGES],
+    /// The corners of the pair's face of the body, and which face it is.
+    vertices: ([Foot; 4], u16),
+    /// The borders of that face.
+    pub(super) borders: [Option<Part>; 4],
+    pub(super) rivals: [Option<Pair>; RIVALS],
     /// The descent from a cell of the audit.
     explorer: Option<Pair>,
     cells: Cells,
     placement: Placement,
     /// Whether the pair is that of the common normal.
     is_inside: bool,
+}
+
+/// A corner or an edge of the core, or a border of the body's face, with its closest pair.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Part {
+    pub pair: Pair,
+    middle: Vec3,
+    half: Vec3,
+    /// Which of the body's parameters stay: those across a border.
+    held: [bool; 2],
+    /// Metres of the core's motion after which it may be the nearest, or in contact.
+    rests_for: f32,
 }
 
 /// A body and a tool at a pose, and what has been spent on them.
@@ -124,7 +148,25 @@ impl<'a> Body<'a> {
                 (pair, distance, state.is_inside) = (at, -depth, true);
             }
         }
-        (state.pair, state.corners) = (pair, tool.corners().map(|corner| corner.map(|b| scene.beneath(b))));
+        state.pair = pair;
+        state.corners = tool.corners().map(|corner| {
+            corner.map(|b| Part {
+                pair: scene.beneath(b),
+                middle: b.point(),
+                half: Vec3::ZERO,
+                held: [false; 2],
+                rests_for: 0.0,
+            })
+        });
+        for (slot, (middle, half)) in state.edges.iter_mut().zip(tool.edges()) {
+            let edge = Region::Solid { middle, half };
+            let pair = scene.beside(&pair, &edge);
+            *slot = Some(Part { pair, middle, half, held: [false; 2], rests_for: 0.0 });
+        }
+        let least = scene.distance(&state.pair);
+        for part in state.corners.iter_mut().chain(&mut state.edges).flatten() {
+            part.rests_for = scene.rest(part, tool, least);
+        }
         let closest = Closest {
             distance: distance - tool.radius(),
             body: pair.a.point(),
@@ -136,7 +178,7 @@ impl<'a> Body<'a> {
     }
 
     /// The state with the witness points on a face of the body and a face of the core; on a core that is no body, at its
-    /// nearest point. Its corners are not tracked.
+    /// nearest point. Its corners and edges are not tracked.
     pub fn start_tool(
         &self,
         tool: &Tool,
@@ -156,11 +198,13 @@ impl<'a> Body<'a> {
     /// the body and one of the core and as many for their switches. On bodies that are not convex it visits `cells` of
     /// the audit too.
     ///
-    /// The distance at rest never rises by more than rounding. The nearest of the pair, the corners and the rivals is
-    /// the result.
+    /// A corner or an edge is left out until the core has moved so far that it can be the nearest, or in contact. The
+    /// distance at rest never rises by more than rounding. The nearest of the pair, the corners, the edges and the
+    /// rivals is the result.
     pub fn step_tool(&self, tool: &Tool, state: &mut ToolWitness, placement: &Placement, cells: u16) -> Closest {
         let mut scene = Scene { body: self, region: tool.region(), placement, evaluations: 0 };
         let has_jumped = state.has_jumped(placement, self.size());
+        let motion = core_motion(&state.placement, placement, tool.extents());
         state.placement = *placement;
         if state.is_inside
             && let Core::Body(core) = *tool.core()
@@ -173,11 +217,11 @@ impl<'a> Body<'a> {
                 return scene.closest(&state.pair, -depth - tool.radius(), ToolStatus::Inside);
             }
         }
-        let moved = scene.tick(&mut state.pair);
-        for corner in state.corners.iter_mut().flatten() {
-            let b = corner.b;
-            scene.tick_on(&Region::point(b.point()), corner);
-            corner.b = b;
+        let region = scene.region;
+        let moved = scene.follow(&region, &mut state.pair);
+        let least = scene.distance(&state.pair);
+        for part in state.corners.iter_mut().chain(&mut state.edges).chain(&mut state.borders).flatten() {
+            scene.tick_part(part, tool, least, motion);
         }
         for rival in state.rivals.iter_mut().flatten() {
             scene.tick(rival);
@@ -207,6 +251,9 @@ impl ToolWitness {
         Self {
             pair,
             corners: [None; CORNERS],
+            edges: [None; EDGES],
+            vertices: ([pair.a; 4], u16::MAX),
+            borders: [None; 4],
             rivals: [None; RIVALS],
             explorer: None,
             cells: Cells::START,
@@ -220,9 +267,19 @@ impl ToolWitness {
         &self.pair
     }
 
-    /// The pair, the corners and the rivals: what may come into contact.
+    /// The pair, the corners, edges and borders, and the rivals: what may come into contact.
     pub fn pairs(&self) -> impl Iterator<Item = &Pair> {
-        core::iter::once(&self.pair).chain(self.corners.iter().flatten()).chain(self.rivals.iter().flatten())
+        let parts = self.corners.iter().chain(&self.edges).chain(&self.borders).flatten().map(|part| &part.pair);
+        core::iter::once(&self.pair).chain(parts).chain(self.rivals.iter().flatten())
+    }
+
+    /// The points of a core that is no body opposite the corners of the pair's face, of which each is a point of the
+    /// body.
+    pub(super) fn at_vertices(&self, region: &Region, placement: &Placement) -> impl Iterator<Item = Pair> + use<> {
+        let (vertices, face) = self.vertices;
+        let count = if face == u16::MAX { 0 } else { vertices.len() };
+        let (region, placement) = (region.solid(), *placement);
+        vertices.into_iter().take(count).map(move |a| Pair::facing(a, &region, &placement))
     }
 
     /// Whether the core's witness point or its axes have moved far since the last tick.
@@ -249,14 +306,28 @@ impl Scene<'_> {
     /// hide that the pair wants to cross it.
     fn tick(&mut self, pair: &mut Pair) -> Moved {
         let region = self.region;
-        self.tick_on(&region, pair)
+        self.tick_on(&region, pair, [false; 2]).0
     }
 
-    fn tick_on(&mut self, region: &Region, pair: &mut Pair) -> Moved {
-        let mut moved = pair.step(self.body, region, self.placement);
+    /// Steps until none ends with a switch: behind an edge the first ends on it, short of the closest pair.
+    fn follow(&mut self, region: &Region, pair: &mut Pair) -> Moved {
+        let mut moved = Moved::AtRest;
+        for _ in 0..MAX_SWITCHES {
+            let switched;
+            (moved, switched) = self.tick_on(region, pair, [false; 2]);
+            if !switched {
+                break;
+            }
+        }
+        moved
+    }
+
+    /// One step; whether a point has changed its face as well.
+    fn tick_on(&mut self, region: &Region, pair: &mut Pair, held: [bool; 2]) -> (Moved, bool) {
+        let mut moved = pair.step(self.body, region, self.placement, held);
         self.evaluations += 1;
         let towards = -pair.difference(self.placement);
-        let mut switched = pair.a.hand_over(self.body, towards);
+        let mut switched = held == [false; 2] && pair.a.hand_over(self.body, towards);
         if let Region::Surface(core) = region {
             self.evaluations += 1;
             switched |= pair.b.hand_over(core, -self.placement.direction_to_b(towards));
@@ -264,7 +335,48 @@ impl Scene<'_> {
         if switched {
             (moved, self.evaluations) = (Moved::Nearer, self.evaluations + 1);
         }
-        moved
+        (moved, switched)
+    }
+
+    /// A step of a corner or an edge, unless it cannot be the nearest yet, nor in contact. Distances to a convex body
+    /// change by no more than the core moves: two of them approach each other by twice that.
+    fn tick_part(&mut self, part: &mut Part, tool: &Tool, least: f32, motion: f32) {
+        part.rests_for -= motion;
+        if part.rests_for > 0.0 {
+            return;
+        }
+        let b = part.pair.b;
+        let region = Region::Solid { middle: part.middle, half: part.half };
+        if part.held == [false; 2] {
+            self.follow(&region, &mut part.pair);
+        } else {
+            self.tick_on(&region, &mut part.pair, part.held);
+        }
+        if part.half == Vec3::ZERO {
+            // A corner stays where it is, on its face.
+            part.pair.b = b;
+        }
+        part.rests_for = self.rest(part, tool, least);
+    }
+
+    fn rest(&self, part: &Part, tool: &Tool, least: f32) -> f32 {
+        let distance = self.distance(&part.pair);
+        let until_nearest = 0.5 * (distance - least);
+        let until_contact = distance - tool.radius() - REACH_M;
+        if until_nearest < until_contact { until_nearest } else { until_contact }
+    }
+
+    /// The closest pair of the body and a part of the core, from that of the core.
+    fn beside(&mut self, pair: &Pair, part: &Region) -> Pair {
+        let mut beside = Pair::facing(pair.a, part, self.placement);
+        for _ in 0..ROUNDS {
+            let a = self.beneath(beside.b).a;
+            beside = Pair::facing(a, part, self.placement);
+        }
+        for _ in 0..MAX_STALLS {
+            self.tick_on(part, &mut beside, [false; 2]);
+        }
+        beside
     }
 
     /// Steps until the pair rests. Returns whether it does.
@@ -375,13 +487,31 @@ impl Scene<'_> {
         }
     }
 
-    /// Makes the nearest of pair, corners and rivals the pair; drops rivals that are far, or one with another.
-    fn exchange(&self, state: &mut ToolWitness) {
+    /// Makes the nearest of pair, corners, edges, vertices and rivals the pair; drops rivals that are far, or one with another.
+    fn exchange(&mut self, state: &mut ToolWitness) {
+        let face = state.pair.a.face;
+        if let (true, Region::Solid { middle, half }) = (state.vertices.1 != face, self.region) {
+            self.evaluations += 8;
+            let ends = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+            state.vertices = (ends.map(|end| Foot::on(self.body, face, end)), face);
+            for (number, border) in state.borders.iter_mut().enumerate() {
+                let mut at = state.pair.a.parameters;
+                at[number / 2] = if number % 2 == 0 { 0.0 } else { 1.0 };
+                let pair = Pair::facing(Foot::on(self.body, face, at), &self.region, self.placement);
+                *border = Some(Part { pair, middle, half, held: [number < 2, number >= 2], rests_for: 0.0 });
+            }
+        }
         let mut least = self.distance(&state.pair) - NEARER * self.body.size();
-        for corner in state.corners.iter().flatten() {
-            let distance = self.distance(corner);
+        for part in state.corners.iter().chain(&state.edges).chain(&state.borders).flatten() {
+            let distance = self.distance(&part.pair);
             if distance < least {
-                (least, state.pair) = (distance, *corner);
+                (least, state.pair) = (distance, part.pair);
+            }
+        }
+        for pair in state.at_vertices(&self.region, self.placement) {
+            let distance = self.distance(&pair);
+            if distance < least {
+                (least, state.pair) = (distance, pair);
             }
         }
         for rival in state.rivals.iter_mut().flatten() {
@@ -419,4 +549,13 @@ impl Scene<'_> {
                 Region::Surface(core) => pair.b.outward(core).dot(self.placement.direction_to_b(difference)) > 0.0,
             }
     }
+}
+
+/// How far a point of the core has moved, at most, metres.
+fn core_motion(from: &Placement, to: &Placement, extents: Vec3) -> f32 {
+    let mut motion = sqrt_from_above((to.origin - from.origin).length_squared());
+    for (axis, extent) in extents.to_array().into_iter().enumerate() {
+        motion += extent * sqrt_from_above((to.axes[axis] - from.axes[axis]).length_squared());
+    }
+    motion
 }

@@ -28,6 +28,7 @@ pub use host_force::HOLD;
 pub use limits::Limits;
 pub use part::{Material, Motion, Part, PartState, Sphere};
 pub use path::Path;
+pub(crate) use quaternion::{product, turned_by};
 pub use rigid::{Joint, Moving, RigidBody, Tether, Wrench};
 pub use scene::Scene;
 pub use slot::{BodyStore, Slot, SlotWitness};

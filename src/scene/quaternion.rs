@@ -4,7 +4,7 @@ use crate::math::{Vec3, inverse_sqrt};
 
 /// `p q`: first `q`, then `p`.
 #[inline]
-pub(super) const fn product(p: &[f32; 4], q: &[f32; 4]) -> [f32; 4] {
+pub(crate) const fn product(p: &[f32; 4], q: &[f32; 4]) -> [f32; 4] {
     let ([a, b, c, s], [x, y, z, w]) = (*p, *q);
     [
         s * x + a * w + b * z - c * y,
@@ -16,7 +16,7 @@ pub(super) const fn product(p: &[f32; 4], q: &[f32; 4]) -> [f32; 4] {
 
 /// `q` turned by the Cayley rotation of `half`, half an angle vector: `(half, 1) q`, of length 1 again.
 #[inline]
-pub(super) fn turned_by(half: Vec3, q: &[f32; 4]) -> [f32; 4] {
+pub(crate) fn turned_by(half: Vec3, q: &[f32; 4]) -> [f32; 4] {
     let [x, y, z, w] = product(&[half.x, half.y, half.z, 1.0], q);
     let scale = inverse_sqrt(x * x + y * y + z * z + w * w);
     [x * scale, y * scale, z * scale, w * scale]

@@ -6,5 +6,6 @@ mod golden_pairs;
 mod guarantee;
 mod limits;
 mod pairs;
+mod proxy;
 mod sweep;
 mod tools;

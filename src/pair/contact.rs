@@ -1,0 +1,112 @@
+//! The contacts of a tool with a body: where, in which direction, and how far.
+
+use super::step::Pair;
+use super::tool::{Tool, unit};
+use super::tracker::ToolWitness;
+use crate::body::Body;
+use crate::math::{Vec3, sqrt};
+use crate::track::Placement;
+
+/// Maximum contacts of a manifold.
+pub const MAX_CONTACTS: usize = 6;
+/// Relative to the body's size: arms that differ by less are one.
+const SAME_ARM: f32 = 1.0e-3;
+/// Normals whose cosine is above this are one: an angle of 0.08 degrees.
+const SAME_NORMAL: f32 = 1.0 - 1.0e-6;
+
+/// A contact, in the frame of the body's tables.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ToolContact {
+    /// Unit vector from the body's point to the core's: out of the body.
+    pub normal: Vec3,
+    /// From the origin of the tool's frame to the core's point, metres.
+    pub arm: Vec3,
+    /// Distance of the tool from the body, metres: the core's less the radius. Negative where the ball around the core
+    /// is in the body.
+    pub gap: f32,
+}
+
+/// The contacts that a tool can close in one tick: the pair first, then the core's corners, the corners and borders of the
+/// body's face, the core's edges, and the rivals, the nearest of each first. None has both arm and normal of another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Manifold {
+    contacts: [ToolContact; MAX_CONTACTS],
+    count: u8,
+}
+
+impl ToolContact {
+    const NONE: Self = Self { normal: Vec3::ZERO, arm: Vec3::ZERO, gap: 0.0 };
+
+    /// The torque of a unit force along the normal about the origin of the tool's frame, metres.
+    pub(super) fn lever(&self) -> Vec3 {
+        self.arm.cross(self.normal)
+    }
+
+    /// `None` of a pair that the signs find on the far side of the body, or whose points coincide.
+    fn of(pair: &Pair, body: &Body, tool: &Tool, placement: &Placement) -> Option<Self> {
+        let away = -pair.difference(placement);
+        if pair.a.outward(body).dot(away) <= 0.0 {
+            return None;
+        }
+        let gap = sqrt(away.length_squared()) - tool.radius();
+        Some(Self { normal: unit(away), arm: placement.direction_to_a(pair.b.point()), gap })
+    }
+}
+
+impl Manifold {
+    /// No contact.
+    pub const NONE: Self = Self { contacts: [ToolContact::NONE; MAX_CONTACTS], count: 0 };
+
+    /// The contacts.
+    pub fn contacts(&self) -> &[ToolContact] {
+        self.contacts.get(..usize::from(self.count)).unwrap_or(&[])
+    }
+
+    /// Enters a contact among those from `first` on, by its gap, unless one of all is the same.
+    fn enter(&mut self, contact: ToolContact, first: usize, size: f32) {
+        let same = SAME_ARM * size;
+        let is_known = self.contacts().iter().any(|known| {
+            (known.arm - contact.arm).length_squared() <= same * same && known.normal.dot(contact.normal) > SAME_NORMAL
+        });
+        if is_known {
+            return;
+        }
+        let mut entering = contact;
+        for index in first..MAX_CONTACTS {
+            let slot = &mut self.contacts[index];
+            if index >= usize::from(self.count) {
+                *slot = entering;
+                self.count += 1;
+                return;
+            }
+            if entering.gap < slot.gap {
+                core::mem::swap(slot, &mut entering);
+            }
+        }
+    }
+}
+
+impl ToolWitness {
+    /// The contacts whose gap a translation of `reach_m` and a rotation of `reach_rad` can close.
+    pub fn manifold(&self, body: &Body, tool: &Tool, placement: &Placement, reach_m: f32, reach_rad: f32) -> Manifold {
+        let mut manifold = Manifold::NONE;
+        let within = |pair: &Pair| {
+            let contact = ToolContact::of(pair, body, tool, placement)?;
+            let arm = sqrt(contact.arm.length_squared());
+            (contact.gap <= reach_m + reach_rad * arm).then_some(contact)
+        };
+        let mut enter = |pairs: &mut dyn Iterator<Item = Pair>| {
+            let first = usize::from(manifold.count);
+            for contact in pairs.filter_map(|pair| within(&pair)) {
+                manifold.enter(contact, first, body.size());
+            }
+        };
+        enter(&mut core::iter::once(*self.pair()));
+        enter(&mut self.corners.iter().flatten().map(|part| part.pair));
+        enter(&mut self.at_vertices(&tool.region(), placement));
+        enter(&mut self.borders.iter().flatten().map(|part| part.pair));
+        enter(&mut self.edges.iter().flatten().map(|part| part.pair));
+        enter(&mut self.rivals.iter().flatten().copied());
+        manifold
+    }
+}

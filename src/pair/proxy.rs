@@ -1,0 +1,258 @@
+//! The drawn tool, held outside the body: a god-object in six degrees of freedom, and the virtual coupling to the hand.
+
+use super::contact::{MAX_CONTACTS, Manifold, ToolContact};
+use super::tool::{Core, Tool};
+use super::tracker::{ToolStatus, ToolWitness};
+use crate::body::Body;
+use crate::math::{Vec3, sqrt, vec3};
+use crate::scene::{BodyPose, Wrench, product, turned_by};
+use core::fmt;
+
+/// Maximum motion of the proxy in a tick: 2 m/s and 40 rad/s at 4 kHz.
+const MAX_STEP_M: f32 = 0.5e-3;
+const MAX_TURN_RAD: f32 = 0.01;
+/// Maximum change of the wrench in a tick by a proxy that moves farther than the hand, as where it slips over an edge.
+const SLIP_N: f32 = 0.04;
+const SLIP_N_M: f32 = 0.1e-3;
+/// Sweeps over the contacts.
+const SWEEPS: u8 = 10;
+/// A tool in contact has a radius of at least this share of its core's largest half length: nearer, the normal is lost
+/// to rounding (theory §14).
+const MIN_RADIUS: f32 = 0.01;
+/// Of the radius: contact is given up where the core is nearer to the body than the rest.
+const GIVEN_UP: f32 = 0.5;
+
+/// The spring between hand and proxy, in six directions about the origin of the tool's frame.
+///
+/// For an angle `θ` the torque is `k sin θ` about its axis, the gradient of the exact potential `2 k ‖vec q‖²`, without
+/// arc functions. A device that renders it at period `h` needs a damping of `k h/2` in each direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ToolCoupling {
+    stiffness_n_per_m: f32,
+    stiffness_n_m_per_rad: f32,
+}
+
+/// Why a proxy is not started, or was given up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum ProxyError {
+    /// The radius of the tool is below 1 % of its core's largest half length, or 0.
+    Thin,
+    /// The hand's pose is not finite, or its quaternion not of length 1.
+    Pose,
+    /// Tool and body intersect.
+    Intersects,
+    /// The closest pair is not known: the location was stopped short, or the tracker lost it.
+    Lost,
+}
+
+/// The proxy, and the state of its contacts.
+#[derive(Clone, Copy, Debug)]
+pub struct Proxy {
+    pose: BodyPose,
+    hand: BodyPose,
+    state: ToolWitness,
+    manifold: Manifold,
+    evaluations: u32,
+    given_up: Option<ProxyError>,
+}
+
+impl fmt::Display for ProxyError {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::Thin => "radius: a tool for contact needs at least 1 % of its core's largest half length",
+            Self::Pose => "pose: needs finite numbers and a quaternion of length 1",
+            Self::Intersects => "pose: tool and body intersect; move the tool out of the body",
+            Self::Lost => "the closest pair is not known; start the proxy again",
+        })
+    }
+}
+
+impl core::error::Error for ProxyError {}
+
+impl ToolCoupling {
+    /// A spring of a stiffness in N/m and one in N·m/rad; `None` unless both are positive and finite.
+    pub const fn new(stiffness_n_per_m: f32, stiffness_n_m_per_rad: f32) -> Option<Self> {
+        if stiffness_n_per_m > 0.0
+            && stiffness_n_per_m < f32::INFINITY
+            && stiffness_n_m_per_rad > 0.0
+            && stiffness_n_m_per_rad < f32::INFINITY
+        {
+            Some(Self { stiffness_n_per_m, stiffness_n_m_per_rad })
+        } else {
+            None
+        }
+    }
+
+    /// The damping that makes the sampled spring passive: N·s/m and N·m·s/rad.
+    pub const fn min_damping(&self, period_s: f32) -> [f32; 2] {
+        [0.5 * self.stiffness_n_per_m * period_s, 0.5 * self.stiffness_n_m_per_rad * period_s]
+    }
+
+    /// On the proxy at `from`, by a hand at `to`; minus it is on the hand.
+    pub fn wrench(&self, from: &BodyPose, to: &BodyPose) -> Wrench {
+        let (away, (vector, scalar)) = stretch(from, to);
+        let torque = vector * (2.0 * self.stiffness_n_m_per_rad * scalar);
+        Wrench { force: away * self.stiffness_n_per_m, torque }
+    }
+
+    /// The energy in the spring, J.
+    pub fn energy_j(&self, from: &BodyPose, to: &BodyPose) -> f32 {
+        let (away, (vector, _)) = stretch(from, to);
+        0.5 * self.stiffness_n_per_m * away.length_squared()
+            + 2.0 * self.stiffness_n_m_per_rad * vector.length_squared()
+    }
+
+    /// The proxy's pose a tick later: the quadratic model of the spring's energy, minimised where no linearised gap
+    /// closes.
+    ///
+    /// A share of a step is feasible and lower as the step is, so that the motion beyond `hand`'s since `before` is
+    /// bounded.
+    fn settle(&self, proxy: &BodyPose, before: &BodyPose, hand: &BodyPose, contacts: &[ToolContact]) -> BodyPose {
+        let [soft, softer] = [1.0 / self.stiffness_n_per_m, 1.0 / self.stiffness_n_m_per_rad];
+        let pull = self.wrench(proxy, hand);
+        let (mut way, mut turn) = (pull.force * soft, pull.torque * softer);
+        // One factor for both, so that the step still lowers the spring's energy.
+        let share = share_within([way, turn], [MAX_STEP_M, MAX_TURN_RAD]);
+        (way, turn) = (way * share, turn * share);
+        let mut pressed = [0.0_f32; MAX_CONTACTS];
+        for _ in 0..SWEEPS {
+            for (contact, pressed) in contacts.iter().zip(&mut pressed) {
+                let (normal, lever) = (contact.normal, contact.lever());
+                let gap = contact.gap + normal.dot(way) + lever.dot(turn);
+                let wanted = *pressed - gap / (soft + softer * lever.length_squared());
+                let next = if wanted > 0.0 { wanted } else { 0.0 };
+                let more = next - *pressed;
+                (way, turn) = (way + normal * (more * soft), turn + lever * (more * softer));
+                *pressed = next;
+            }
+        }
+        let (moved, (turned, _)) = stretch(before, hand);
+        let length = |vector: Vec3| sqrt(vector.length_squared());
+        let share =
+            share_within([way, turn], [length(moved) + SLIP_N * soft, 2.0 * length(turned) + SLIP_N_M * softer]);
+        (way, turn) = (way * share, turn * share);
+        let position = (Vec3::from_array(proxy.position) + way).to_array();
+        let next = BodyPose { position, orientation: turned_by(turn * 0.5, &proxy.orientation) };
+        // Where nothing has to be taken back, standing still is feasible.
+        let is_outside = contacts.iter().all(|contact| contact.gap >= 0.0);
+        if is_outside && self.energy_j(&next, hand) > self.energy_j(proxy, hand) { *proxy } else { next }
+    }
+}
+
+/// The factor, at most 1, that brings both vectors within their limits.
+fn share_within(vectors: [Vec3; 2], limits: [f32; 2]) -> f32 {
+    let mut share = 1.0;
+    for (vector, limit) in vectors.into_iter().zip(limits) {
+        let length = sqrt(vector.length_squared());
+        if length * share > limit {
+            share = limit / length;
+        }
+    }
+    share
+}
+
+/// From one pose to another: the way, and the rotation as the vector and the scalar of its quaternion.
+fn stretch(from: &BodyPose, to: &BodyPose) -> (Vec3, (Vec3, f32)) {
+    let [x, y, z, w] = from.orientation;
+    let [a, b, c, s] = product(&to.orientation, &[-x, -y, -z, w]);
+    (Vec3::from_array(to.position) - Vec3::from_array(from.position), (vec3(a, b, c), s))
+}
+
+impl Proxy {
+    /// The proxy at the hand's pose in the frame of the body's tables. Locates all contacts first: for set-up, not for a
+    /// tick.
+    ///
+    /// # Errors
+    /// A tool that is too thin, a pose that is none, and tools that do not lie outside the body.
+    pub fn start(body: &Body, tool: &Tool, hand: &BodyPose) -> Result<Self, ProxyError> {
+        if !is_thick(tool) {
+            return Err(ProxyError::Thin);
+        }
+        let placement = hand.placement().ok_or(ProxyError::Pose)?;
+        if !placement.origin.is_finite() {
+            return Err(ProxyError::Pose);
+        }
+        let (state, found) = body.locate_tool(tool, &placement);
+        match found.status {
+            ToolStatus::AtRest if found.distance >= 0.0 => Ok(Self {
+                pose: *hand,
+                hand: *hand,
+                state,
+                manifold: Manifold::NONE,
+                evaluations: found.evaluations,
+                given_up: None,
+            }),
+            ToolStatus::AtRest | ToolStatus::Inside => Err(ProxyError::Intersects),
+            _ => Err(ProxyError::Lost),
+        }
+    }
+
+    /// One tick: follows the contacts of the proxy, lets it go towards the hand as far as they let it, and gives the
+    /// wrench on the hand about the origin of the tool's frame. Zero, until the proxy is started again, after contact
+    /// was given up: the hand's pose is none, the tracker lost the pair, or the core is nearer to the body than half
+    /// the radius. `cells` as in [`Body::step_tool`].
+    pub fn tick(&mut self, body: &Body, tool: &Tool, coupling: &ToolCoupling, hand: &BodyPose, cells: u16) -> Wrench {
+        if self.given_up.is_none() {
+            self.given_up = self.follow(body, tool, coupling, hand, cells).err();
+        }
+        if self.given_up.is_some() {
+            return Wrench::default();
+        }
+        let Wrench { force, torque } = coupling.wrench(&self.pose, hand);
+        Wrench { force: -force, torque: -torque }
+    }
+
+    fn follow(
+        &mut self,
+        body: &Body,
+        tool: &Tool,
+        coupling: &ToolCoupling,
+        hand: &BodyPose,
+        cells: u16,
+    ) -> Result<(), ProxyError> {
+        let is_pose = hand.placement().is_some_and(|placement| placement.origin.is_finite());
+        let placement = self.pose.placement().filter(|_| is_pose).ok_or(ProxyError::Pose)?;
+        let found = body.step_tool(tool, &mut self.state, &placement, cells);
+        self.evaluations = found.evaluations;
+        let is_known = matches!(found.status, ToolStatus::Following | ToolStatus::AtRest);
+        if !is_known || found.distance < -GIVEN_UP * tool.radius() {
+            return Err(ProxyError::Lost);
+        }
+        self.manifold = self.state.manifold(body, tool, &placement, MAX_STEP_M, MAX_TURN_RAD);
+        self.pose = coupling.settle(&self.pose, &self.hand, hand, self.manifold.contacts());
+        self.hand = *hand;
+        Ok(())
+    }
+
+    /// Where the tool is drawn, in the frame of the body's tables.
+    pub const fn pose(&self) -> &BodyPose {
+        &self.pose
+    }
+
+    /// The contacts of the last tick, as they were before the proxy moved.
+    pub fn contacts(&self) -> &[ToolContact] {
+        self.manifold.contacts()
+    }
+
+    /// Evaluations of patches that the last tick has spent, or the start.
+    pub const fn evaluations(&self) -> u32 {
+        self.evaluations
+    }
+
+    /// Why contact was given up, if it was.
+    pub const fn given_up(&self) -> Option<ProxyError> {
+        self.given_up
+    }
+}
+
+fn is_thick(tool: &Tool) -> bool {
+    let largest = match tool.core() {
+        Core::Point => 0.0,
+        Core::Segment { half } => *half,
+        Core::Box { half } => half.iter().fold(0.0, |largest, half| if *half > largest { *half } else { largest }),
+        Core::Body(body) => 0.5 * body.size(),
+    };
+    tool.radius() > 0.0 && tool.radius() >= MIN_RADIUS * largest
+}
