@@ -97,6 +97,53 @@ fn an_arc_may_fall_to_the_axis_about_which_it_is_turned() {
     assert!(part.patches.len() <= 60, "{} patches", part.patches.len());
 }
 
+/// The distance of (radius, height) from a curve in the half-plane of the axis, over 0 to 1.
+fn from_curve(at: glam::DVec2, curve: impl Fn(f64) -> glam::DVec2) -> f64 {
+    let off = |t: f64| curve(t.clamp(0.0, 1.0)).distance(at);
+    let start = (0..=1000).map(|k| f64::from(k) / 1e3).min_by(|a, b| off(*a).total_cmp(&off(*b))).unwrap();
+    let (mut low, mut high) = (start - 1e-3, start + 1e-3);
+    for _ in 0..60 {
+        let [a, b] = [low + (high - low) / 3.0, high - (high - low) / 3.0];
+        if off(a) < off(b) { high = b } else { low = a }
+    }
+    off(0.5 * (low + high))
+}
+
+/// Open CASCADE's own distances to these two, as its extrema on a revolved arc find them, are up to 4.35 and 0.46 mm too
+/// long, and its classifier takes the sides of many probes for each other: the profile in closed form is the truth.
+#[test]
+fn distances_of_crowns_are_the_profiles() {
+    use glam::DVec2;
+    // An arc of 30 mm about 2 mm beyond the axis, from a rim of 10 mm at a height of 5 mm.
+    let (centre, [low, high]) =
+        (DVec2::new(-2.0, 5.0 - (900.0_f64 - 144.0).sqrt()), [12.0, 2.0].map(|x: f64| (x / 30.0).acos()));
+    let arc = |t: f64| centre + 30.0 * DVec2::from_angle(low + (high - low) * t);
+    let ellipse = |t: f64| DVec2::new(12.0, 7.0) * DVec2::from_angle(0.5 * std::f64::consts::PI * t);
+    let line = |from: DVec2, to: DVec2| move |t: f64| from.lerp(to, t);
+    let crown = |at: DVec2| {
+        let (bottom, wall) = (line(DVec2::ZERO, DVec2::X * 10.0), line(DVec2::X * 10.0, DVec2::new(10.0, 5.0)));
+        from_curve(at, arc).min(from_curve(at, bottom)).min(from_curve(at, wall))
+    };
+    let dome = |at: DVec2| from_curve(at, ellipse).min(from_curve(at, line(DVec2::ZERO, DVec2::X * 12.0)));
+    let profiles: [(&str, &dyn Fn(DVec2) -> f64); 2] = [("crown_2_30", &crown), ("dome_ellipse", &dome)];
+    for (part, profile) in profiles {
+        let patches: Vec<Bezier> = imported(part).patches.into_iter().map(|patch| patch.surface).collect();
+        let mut state = 5_u64;
+        let mut between = |low: f64, high: f64| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            low + (high - low) * (state >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        for row in 0..300 {
+            // A third of them on the axis or hardly off it.
+            let wide = if row % 3 == 0 { [0.0, 1e-3][row % 2] } else { 16.0 };
+            let at = glam::DVec3::new(between(-wide, wide), between(-wide, wide), between(-6.0, 14.0));
+            let known = profile(DVec2::new(at.truncate().length(), at.z));
+            let found = distance(&patches, at);
+            assert!((found - known).abs() <= TOLERANCE, "{part}, {at}: {found} found, {known} known");
+        }
+    }
+}
+
 /// Volume and area that the kernel gives, mm³ and mm².
 #[test]
 fn volumes_and_areas_of_offsets_are_the_kernels() {
@@ -226,6 +273,22 @@ fn the_pictures_of_the_docs_are_drawn_the_same_again() {
     }
 }
 
+/// Those on whose axes the core's tests look for wrong sides. `PALPATE_WRITE=1` writes them.
+#[test]
+fn the_models_of_the_cores_tests_are_what_is_imported() {
+    for (part, model) in
+        [("crown_2_30", "crown"), ("steep_crown", "steep_crown"), ("pit_tip", "pit"), ("dome_ellipse", "dome")]
+    {
+        let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../suites/data/cad_{model}.toml"));
+        let made = imported(part).model;
+        if std::env::var_os("PALPATE_WRITE").is_some() {
+            fs::write(&path, made).unwrap();
+        } else {
+            assert!(fs::read_to_string(&path).unwrap() == made, "{} is older than the code", path.display());
+        }
+    }
+}
+
 /// A whole sphere has no pole for a tracker to stop at.
 #[test]
 fn a_sphere_is_six_patches_without_a_pole() {
@@ -266,7 +329,7 @@ fn a_disc_with_holes_on_a_circle_is_few_patches() {
 #[test]
 fn a_torus_drilled_through_its_tube_is_few_patches() {
     let count = imported("torus_drilled").patches.len();
-    assert!(count <= 45, "{count}");
+    assert!(count <= 33, "{count}");
 }
 
 /// Its end is two half-moons: each an arc that one cut divides, and a straight side.
