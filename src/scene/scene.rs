@@ -378,6 +378,10 @@ impl<S: Surface, const N: usize> Surface for Scene<'_, S, N> {
         }
     }
 
+    fn is_for(&self, period: f32) -> bool {
+        self.parts.iter().all(|part| part.surface.is_for(period))
+    }
+
     #[inline]
     fn follow(&self, controller: &Controller, state: &mut Self::Witness, probe: Probe, period: f32) -> Touched {
         state.ticks = state.ticks.wrapping_add(1);

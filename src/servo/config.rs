@@ -465,12 +465,21 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS
     }
 
     /// The state before the first tick after a reset. A reset by the watchdog or a brown-out is a fault from the start,
-    /// and so are tables that are not those that were baked ([`Safety::checks_tables`]): they are read whole here.
+    /// and so are a surface for another rate ([`Surface::is_for`]) and tables that are not those that were baked
+    /// ([`Safety::checks_tables`]): they are read whole here.
     pub fn start_after(&self, reset: ResetReason) -> ServoState<JOINTS, S::Witness, G::State> {
         let core = &self.core;
         let mut table_check = TableCheck::default();
         let is_good = self.expected_crc().is_none_or(|expected| table_check.run(core.surface, expected));
-        let fault = reset.fault().or((!is_good).then_some(Fault::TableCorrupt));
+        let of_surface = if !core.surface.is_for(core.period) {
+            Some(Fault::OtherRate)
+        } else if is_good {
+            None
+        } else {
+            Some(Fault::TableCorrupt)
+        };
+        // That of the reset can be acknowledged: the other one then stands.
+        let fault = reset.fault().or(of_surface);
         ServoState {
             phase: if fault.is_some() { Phase::Fault } else { Phase::Reset },
             ticks: 0,
@@ -486,7 +495,7 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS
             },
             faults: Faults {
                 first: fault.map(|fault| (fault, 0)),
-                later: None,
+                later: of_surface.filter(|_| reset.fault().is_some()),
                 reset,
                 overruns: 0,
                 overruns_in_a_row: 0,

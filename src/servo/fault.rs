@@ -142,11 +142,14 @@ pub enum Fault {
     /// A sensor whose last bits are never quiet repeats the same reading.
     #[error("sensor reading frozen")]
     Frozen = 22,
+    /// The surface was made for a loop of another rate ([`super::Surface::is_for`]).
+    #[error("surface made for another rate")]
+    OtherRate = 23,
 }
 
 impl Fault {
     /// Every fault, in the order of its code.
-    pub const ALL: [Self; 22] = [
+    pub const ALL: [Self; 23] = [
         Self::FrameLost,
         Self::FrameDamaged,
         Self::JointOutOfRange,
@@ -169,6 +172,7 @@ impl Fault {
         Self::Calibration,
         Self::Magnet,
         Self::Frozen,
+        Self::OtherRate,
     ];
 
     /// Whether [`super::SafeOutput::Damping`] may follow it. Not where that would drive a motor that has failed or is

@@ -66,7 +66,7 @@ pub struct SoftContact {
 }
 
 impl<'a> SoftBody<'a> {
-    /// A body with a motion for each of its modes, for a loop of this rate, Hz. A loop of another rate gets no force.
+    /// A body with a motion for each of its modes, for a loop of this rate, Hz. Any other is [`super::Fault::OtherRate`].
     ///
     /// # Errors
     /// A mode that is none or too fast, or another number of motions than of modes; a rate that is no number or not
@@ -182,11 +182,16 @@ impl Surface for SoftBody<'_> {
     }
 
     #[inline]
+    fn is_for(&self, period: f32) -> bool {
+        (period - self.period).abs() <= 1e-3 * self.period
+    }
+
+    #[inline]
     fn follow(&self, controller: &Controller, state: &mut SoftContact, probe: Probe, period: f32) -> Touched {
         let q = state.q();
         let step = self.soft.step(controller, &mut state.track, probe, &q, period);
         state.is_too_deep = step.is_too_deep;
-        state.is_in_time = (period - self.period).abs() <= 1e-3 * self.period;
+        state.is_in_time = self.is_for(period);
         Touched {
             normal: state.track.body.normal,
             rejected: step.body.outcome == Outcome::Rejected,

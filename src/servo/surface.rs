@@ -82,6 +82,12 @@ pub trait Surface: BakedTables {
     /// The state before the first tick.
     fn rest(&self) -> Self::Witness;
 
+    /// Whether it works in a loop of this period, seconds: a surface with a motion of its own, as
+    /// [`super::SoftBody`], is made for one. In another loop it is [`super::Fault::OtherRate`] from the start.
+    fn is_for(&self, _period: f32) -> bool {
+        true
+    }
+
     /// One tick: bounded work, no panic. `period` in seconds.
     fn follow(&self, controller: &Controller, witness: &mut Self::Witness, probe: Probe, period: f32) -> Touched;
 

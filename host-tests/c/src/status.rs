@@ -321,6 +321,7 @@ pub extern "C" fn palpate_fault_text(fault: u32) -> *const c_char {
         Some(Fault::Calibration) => c"the calibration stored in flash is refused",
         Some(Fault::Magnet) => c"sensor magnet too strong or too weak",
         Some(Fault::Frozen) => c"sensor reading frozen",
+        Some(Fault::OtherRate) => c"surface made for another rate",
     };
     text.as_ptr()
 }

@@ -4,11 +4,16 @@
 use crate::scene::{Scene, from_environment};
 use glam::DVec3;
 use palpate::body::{Body, Feature, Soft, SoftWitness};
+use palpate::device::Counts;
+use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::field::{MAX_MODES, Modal, ModalStep, Mode};
 use palpate::math::{Vec3, vec3};
 use palpate::patch::Patch as _;
 use palpate::render::Penalty;
-use palpate::servo::{SoftBody, SoftContact, Surface as _};
+use palpate::servo::{
+    Config, Event, Fault, Input, Output, Phase, ResetReason, Servo, ServoState, Settings, SoftBody, SoftContact,
+    Surface as _,
+};
 use palpate::track::{Contact, Controller, Probe};
 use palpate_bake::ritz::{Material, Modes};
 use palpate_bake::{BakedBody, Model, modes};
@@ -117,6 +122,32 @@ fn no_tick_on_a_vibrating_body_moves_the_witness_point_away() {
             // Of the tracker's own limit of rounding, 64 units in the last place of the coordinates.
             assert!(most <= 64.0 * f64::from(f32::EPSILON), "{name} at {speed} m/s: {most:e}");
         }
+    }
+}
+
+#[test]
+fn a_loop_of_another_rate_than_its_soft_body_is_a_fault_from_the_start() {
+    let (scene, modes) = (Scene::load("capped_box"), modes_of("capped_box"));
+    let motion = vec![Modal::new(20.0, 0.05, 0.1); modes.len()];
+    let made_for = |rate_hz| SoftBody::new(Soft::new(scene.body, &modes).unwrap(), &motion, rate_hz).unwrap();
+    for (rate_hz, fault) in [(4_000.0, None), (2_000.0, Some(Fault::OtherRate)), (4_010.0, Some(Fault::OtherRate))] {
+        let surface = made_for(rate_hz);
+        let settings = Settings { rate_hz: 4_000.0, ..Settings::DEFAULT };
+        let servo = Servo::new(&WOODEN_HAPTICS_2016, &surface, Config { settings, ..Config::DEFAULT });
+        let found = |state: &ServoState<3, SoftContact>| state.fault().map(|(fault, _)| fault);
+        let mut state = servo.start();
+        assert_eq!(found(&state), fault, "{rate_hz} Hz");
+        let input = Input::Sensors { counts: [Counts(0); 3], enable: true };
+        for _ in 0..100 {
+            let output = servo.tick(&mut state, input);
+            assert!(fault.is_none() || output == Output::Off, "{rate_hz} Hz");
+        }
+        assert_eq!(state.phase() == Phase::Running, fault.is_none(), "{rate_hz} Hz: {:?}", state.fault());
+        // A reset that is a fault hides it only until somebody has seen that.
+        let mut state = servo.start_after(ResetReason::Watchdog);
+        assert_eq!(found(&state), Some(Fault::WatchdogReset));
+        servo.note(&mut state, Event::Acknowledged);
+        assert_eq!(found(&state), fault, "{rate_hz} Hz");
     }
 }
 

@@ -175,7 +175,7 @@ fn every_fault_in_every_phase_is_safe_named_and_latched() {
             let blind = match fault {
                 Fault::JointJumped => phase == Phase::Reset,
                 Fault::JointStuck | Fault::ContactLost => phase != Phase::Running,
-                Fault::Overspeed | Fault::Supply | Fault::WrongPolarity => true,
+                Fault::Overspeed | Fault::Supply | Fault::WrongPolarity | Fault::OtherRate => true,
                 _ => false,
             };
             let partly = matches!(fault, Fault::JointStuck | Fault::ContactLost);

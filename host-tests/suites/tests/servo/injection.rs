@@ -125,6 +125,8 @@ impl Bench<'_> {
             }
             // Of a loop that is protected: see `guard.rs`.
             Fault::Overspeed | Fault::Supply | Fault::WrongPolarity => Seen::Not,
+            // From the start of a loop on a surface for another rate: see `a_loop_of_another_rate_…`.
+            Fault::OtherRate => Seen::Not,
             Fault::Overrun => {
                 self.servo.note(state, Event::Overrun);
                 Seen::Now { believable: false }

@@ -146,38 +146,47 @@ impl<K: Kinematics<JOINTS>, const JOINTS: usize> Kinematics<JOINTS> for Poisoned
     }
 }
 
-/// The wall with the tables of the capped box, the first word of which may change.
+/// The wall with the tables of the capped box, the first word of which may change, or for another rate.
 #[derive(Debug)]
-struct Tabled(&'static SplinePatch<'static>, &'static Body<'static>, Cell<bool>);
+struct Tabled {
+    wall: &'static SplinePatch<'static>,
+    body: &'static Body<'static>,
+    changed: Cell<bool>,
+    is_for_any_rate: bool,
+}
 
 impl Surface for Tabled {
     type Witness = PatchWitness;
 
     fn rest(&self) -> PatchWitness {
-        self.0.rest()
+        self.wall.rest()
+    }
+
+    fn is_for(&self, _: f32) -> bool {
+        self.is_for_any_rate
     }
 
     fn follow(&self, controller: &Controller, witness: &mut PatchWitness, probe: Probe, period: f32) -> Touched {
-        self.0.follow(controller, witness, probe, period)
+        self.wall.follow(controller, witness, probe, period)
     }
 
     fn release(&self, witness: &mut PatchWitness) {
-        self.0.release(witness);
+        self.wall.release(witness);
     }
 }
 
 impl BakedTables for Tabled {
     fn table_word(&self, cursor: TableCursor) -> Option<u32> {
-        let changed = u32::from(self.2.get() && cursor == TableCursor::default());
-        self.1.table_word(cursor).map(|word| word ^ changed)
+        let changed = u32::from(self.changed.get() && cursor == TableCursor::default());
+        self.body.table_word(cursor).map(|word| word ^ changed)
     }
 
     fn table_records(&self) -> u32 {
-        self.1.table_records()
+        self.body.table_records()
     }
 
     fn baked_crc(&self) -> Option<u32> {
-        self.1.baked_crc()
+        self.body.baked_crc()
     }
 }
 
@@ -284,10 +293,12 @@ impl Subject {
                 let servo = Servo::new(device, surface, Config { homing: Some(homing), ..config });
                 Some(run.on(servo, &device.kinematics.1, self.plant_of(setting)))
             }
-            Setting::Tabled => {
-                let surface: &'static Tabled = leaked(Tabled(surface, capped_box().ok()?, Cell::new(false)));
+            Setting::Tabled | Setting::OtherRate => {
+                let is_for_any_rate = setting == Setting::Tabled;
+                let (body, changed) = (capped_box().ok()?, Cell::new(false));
+                let surface: &'static Tabled = leaked(Tabled { wall: surface, body, changed, is_for_any_rate });
                 let servo = Servo::new(device, surface, config);
-                Some(run.with(servo, &device.kinematics.1, Some(&surface.2), self.plant_of(setting)))
+                Some(run.with(servo, &device.kinematics.1, Some(&surface.changed), self.plant_of(setting)))
             }
             _ => Some(run.on(Servo::new(device, surface, config), &device.kinematics.1, self.plant_of(setting))),
         }
@@ -383,6 +394,7 @@ impl Run {
                 | Setting::StopUntested
                 | Setting::Miscalibrated
                 | Setting::Misplaced
+                | Setting::OtherRate
                 | Setting::NoSupply
                 | Setting::NoStart
                 | Setting::ReversedEncoder(_)

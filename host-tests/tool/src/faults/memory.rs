@@ -107,6 +107,20 @@ pub(super) const TABLE: &[Failure] = &[
     row(
         [
             "memory",
+            "a soft body was made for another rate",
+            "compared at start",
+            "a_loop_of_another_rate_than_its_soft_body_is_a_fault_from_the_start",
+        ],
+        0.25,
+        Latched(Fault::OtherRate),
+        Planted(Setting::OtherRate, |touch| {
+            touch.world.button = true;
+            true
+        }),
+    ),
+    row(
+        [
+            "memory",
             "a word of the program in RAM changes",
             "compared with its image in flash",
             "test_word_of_the_program_that_differs_from_its_image_stops",

@@ -63,6 +63,8 @@ pub enum Setting {
     Heavier,
     /// As [`Self::Pressed`], with the tables of the capped box.
     Tabled,
+    /// Before force: the surface is for another rate.
+    OtherRate,
     /// Before force: a bit of memory sticks from the start on.
     NoStart,
 }

@@ -37,6 +37,7 @@ fn how(fault: Fault) -> How {
         Fault::Overrun => How::Anytime(|knob| (0..64).for_each(|_| knob.note(Event::Overrun))),
         Fault::LinkLost => How::Within(LINK_TICKS + 1, |knob| knob.silent = true),
         Fault::TableCorrupt => How::Never("the feels are part of the program"),
+        Fault::OtherRate => How::Never("a dial has no motion of its own"),
         Fault::WatchdogReset => How::Reset(ResetReason::Watchdog),
         Fault::BrownOut => How::Reset(ResetReason::BrownOut),
         Fault::Drive => How::Anytime(|knob| knob.note(Event::DriveFault)),
@@ -149,5 +150,5 @@ fn what_a_knob_cannot_have_has_a_reason_and_is_never_seen() {
         assert_eq!(knob.state().fault(), None, "{when}");
     }
     let never = Fault::ALL.into_iter().filter(|fault| matches!(how(*fault), How::Never(why) if !why.is_empty()));
-    assert_eq!(never.count(), 6);
+    assert_eq!(never.count(), 7);
 }
