@@ -127,7 +127,9 @@ impl Pair {
         };
         let size = body.size() + placement.origin.abs().max_element();
         let rise = next.difference(placement).length_squared() - squared;
-        let is_no_rise = rise <= ROUNDING * size * sqrt(squared);
+        // Near contact the points' own rounding is the distance.
+        let rounding = ROUNDING * size;
+        let is_no_rise = rise <= rounding * (sqrt(squared) + rounding);
         if !is_no_rise {
             self.halvings = if self.halvings < MAX_HALVINGS { self.halvings + 1 } else { MAX_HALVINGS };
             return Moved::Rejected;
