@@ -3,10 +3,13 @@
 use super::feature::Feature;
 use super::search::Located;
 use super::table::Body;
+use super::tick_bound::{TickLimit, WorstTick};
+use super::tick_cost as cost;
 use super::tracker::{BodyStep, BodyWitness};
 use crate::field::{Displacement, Field, MAX_MODES, Mode};
 use crate::math::Vec3;
 use crate::patch::Patch as _;
+use crate::tally::TickWork;
 use crate::track::{Contact, Controller, Probe};
 use core::fmt;
 
@@ -137,6 +140,36 @@ impl<'a> Soft<'a> {
         self.modes
     }
 
+    /// Bound of the evaluations of every tick, as [`Body::worst_tick`] of a rigid body, with those of the loop's push
+    /// ([`crate::servo::SoftBody`]): of any `q`, also where modes take the body's convexity.
+    pub const fn worst_tick(&self, weights: TickWork) -> WorstTick {
+        let WorstTick { cost, vertex } = self.rest.displaced_by(&Field::REST, Contact::Touching).worst_tick(weights);
+        // To ride, and for the material point.
+        let each = if weights.curves > weights.patches { weights.curves } else { weights.patches };
+        WorstTick { cost: cost + 2 * each, vertex }
+    }
+
+    /// Bound of the cycles of every servo tick on a Cortex-M4F, as [`Body::worst_cycles`].
+    pub const fn worst_cycles(&self) -> u32 {
+        let TickWork { patches, curves, spokes } = self.rest.weights();
+        let weights =
+            TickWork { patches: patches + cost::WARP, curves: curves + cost::WARP, spokes: spokes + cost::WARP };
+        cost::cycles(self.worst_tick(weights).cost + cost::modes(self.modes.len() as u32))
+    }
+
+    /// The body with the highest effort up to its own with which every tick stays within the limit's cycles, as
+    /// [`Body::fitted`].
+    #[must_use]
+    pub const fn fitted(mut self, limit: TickLimit) -> Self {
+        while self.worst_cycles() > limit.cycles {
+            match self.rest.effort.less() {
+                Some(effort) => self.rest.effort = effort,
+                None => break,
+            }
+        }
+        self
+    }
+
     /// The displacement at some `q`, metres, each saturated to its mode's limit.
     pub fn field(&self, q: &[f32]) -> Field<'a> {
         Field::new(self.modes, q)
@@ -195,23 +228,7 @@ impl<'a> Body<'a> {
     where
         'a: 'f,
     {
-        let Self { faces, edges, vertices, spokes, locator, size, sure_from, has_poles, has_smooth_edges, .. } = *self;
-        let sure_from = if by.is_affine() { sure_from } else { Contact::Touching };
-        let (baked_crc, effort) = (self.baked_crc, self.effort);
-        Body {
-            faces,
-            edges,
-            vertices,
-            spokes,
-            locator,
-            size,
-            sure_from,
-            has_poles,
-            has_smooth_edges,
-            baked_crc,
-            effort,
-            by,
-        }
+        self.displaced_by(by, if by.is_affine() { self.sure_from } else { Contact::Touching })
     }
 }
 

@@ -287,7 +287,13 @@ impl<'a, const KINDS: u32> Body<'a, Rigid<KINDS>> {
     #[must_use]
     pub const fn of_kinds<const OF: u32>(self) -> Body<'a, Rigid<OF>> {
         assert!(self.kinds() & !OF == 0, "kinds: a face is of another kind; take `kinds()` of this body");
-        let Self { faces, edges, vertices, spokes, locator, size, sure_from, has_poles, has_smooth_edges, .. } = self;
+        self.displaced_by(Rigid, self.sure_from)
+    }
+
+    /// The same tables with a displacement, and with where an audit is needed under it.
+    #[inline(always)]
+    pub(super) const fn displaced_by<D: Copy>(&self, by: D, sure_from: Contact) -> Body<'a, D> {
+        let Self { faces, edges, vertices, spokes, locator, size, has_poles, has_smooth_edges, .. } = *self;
         let (baked_crc, effort) = (self.baked_crc, self.effort);
         Body {
             faces,
@@ -301,7 +307,7 @@ impl<'a, const KINDS: u32> Body<'a, Rigid<KINDS>> {
             has_smooth_edges,
             baked_crc,
             effort,
-            by: Rigid,
+            by,
         }
     }
 

@@ -4,7 +4,7 @@ use super::audit::MAX_EVALUATIONS_IN_AUDIT;
 use super::feature::{Edge, EdgeFace, EdgeKind, Face, Separator, Side, Spoke, Vertex};
 use super::table::Body;
 use super::tick_cost as cost;
-use crate::field::Rigid;
+use crate::field::Displacement;
 use crate::math::Vec3;
 use crate::tally::TickWork;
 
@@ -77,7 +77,7 @@ impl Effort {
     }
 
     /// The next lower effort of a body that does not fit; `None` below [`Self::ONE`].
-    const fn less(self) -> Option<Self> {
+    pub(super) const fn less(self) -> Option<Self> {
         let Self { steps, candidates } = self;
         match (steps, candidates) {
             (0..=1, 0..=1) => None,
@@ -123,7 +123,7 @@ const fn or(one: TickWork, other: TickWork, weights: TickWork) -> TickWork {
     if other.weighed(weights) > one.weighed(weights) { other } else { one }
 }
 
-impl<const KINDS: u32> Body<'_, Rigid<KINDS>> {
+impl<D: Displacement> Body<'_, D> {
     /// Bound of the work of every tick ([`Body::step`] with the default controller), proved for these tables: the sum of
     /// the evaluations, each with its weight ([`TickWork::EACH`] counts evaluations). A first-order law adds
     /// [`Integrator::evaluations`](crate::track::Integrator::evaluations) less one.
@@ -219,8 +219,8 @@ impl<const KINDS: u32> Body<'_, Rigid<KINDS>> {
         worst
     }
 
-    /// Instructions of the dearest evaluation of each kind.
-    const fn weights(&self) -> TickWork {
+    /// Instructions of the dearest evaluation of each kind, at rest.
+    pub(super) const fn weights(&self) -> TickWork {
         let mut weights = TickWork { patches: 0, curves: 0, spokes: cost::SPOKE };
         let mut index = 0;
         while index < self.edges.len() {
@@ -374,23 +374,25 @@ impl<const KINDS: u32> Body<'_, Rigid<KINDS>> {
         if (of.face as usize) < self.faces.len() { Some(&self.faces[of.face as usize]) } else { None }
     }
 
-    /// Whether the separator of a face's side is a curve.
-    const fn is_ruled(&self, of: EdgeFace) -> bool {
-        match self.face_of(of) {
-            Some(face) => matches!(face.sides[of.side as usize & 3], Side::Edge { separator: Separator::Ruled(_), .. }),
-            None => false,
+    /// The number of curves that the separator of a face's side takes.
+    const fn separator(&self, of: EdgeFace) -> u32 {
+        let Some(face) = self.face_of(of) else { return 0 };
+        match face.sides[of.side as usize & 3] {
+            Side::Edge { separator: Separator::Plane { .. }, .. } => D::SEPARATORS[0],
+            Side::Edge { separator: Separator::Ruled(_), .. } => D::SEPARATORS[1],
+            Side::Pole { .. } => 0,
         }
     }
 
     /// The number of curves that separate the faces of an edge.
     const fn ruled(&self, edge: &Edge<'_>) -> u32 {
-        self.is_ruled(edge.faces[0]) as u32 + self.is_ruled(edge.faces[1]) as u32
+        self.separator(edge.faces[0]) + self.separator(edge.faces[1])
     }
 
     /// [`Body::update_contact`] on an edge: `is_above_smooth` or `is_below`.
     const fn contact_on_edge(&self, edge: &Edge<'_>) -> TickWork {
         match edge.kind {
-            EdgeKind::Smooth => curves(self.is_ruled(edge.faces[0]) as u32),
+            EdgeKind::Smooth => curves(self.separator(edge.faces[0])),
             EdgeKind::Convex | EdgeKind::Mixed if self.has_poles => curves(self.ruled(edge)),
             EdgeKind::Convex | EdgeKind::Mixed | EdgeKind::Reflex | EdgeKind::Open => NO_WORK,
         }
@@ -427,7 +429,7 @@ impl<const KINDS: u32> Body<'_, Rigid<KINDS>> {
             Side::Edge { edge, .. } => {
                 let edge = self.edge_at(*edge);
                 match edge.kind {
-                    EdgeKind::Convex => curves((self.ruled(edge) > 0) as u32),
+                    EdgeKind::Convex => curves(larger(self.separator(edge.faces[0]), self.separator(edge.faces[1]))),
                     EdgeKind::Smooth => {
                         let [start, end] = edge.ends;
                         let (start, _) = self.in_front_at(self.vertex_at(start));

@@ -18,12 +18,23 @@ pub const SERVO: u32 = 1_850;
 const SPANS: u32 = 2 * 8 * 12;
 /// Instructions of a look at a spoke with its edge, that edge's two faces and their curvature.
 pub(super) const SPOKE: u32 = 40;
+/// Instructions to displace a point with its derivatives and the bounds of its patch.
+pub(super) const WARP: u32 = 450;
+/// Rounds of the search for the point at rest, each with a displacement, before a candidate is looked at.
+const UNDO: u32 = 5;
+/// Instructions of a mode in a tick: blended, pushed and moved; and in each round of stops.
+const MODE: [u32; 2] = [460, 50];
 /// Cycles of ten instructions: 404 for 185 in an evaluation of degree (3, 3), the highest of `palpate cycles`.
 const CYCLES_OF_TEN: u32 = 22;
 
 /// Cycles of a tick whose evaluations take these instructions.
 pub(super) const fn cycles(evaluations: u32) -> u32 {
     (evaluations + SERVO) * CYCLES_OF_TEN / 10
+}
+
+/// Instructions of a body's modes in a tick.
+pub const fn modes(count: u32) -> u32 {
+    UNDO * WARP + count * (MODE[0] + (count + 1) * MODE[1])
 }
 
 const fn is_rational(coefficients: Coefficients<'_>) -> bool {

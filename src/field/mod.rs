@@ -21,6 +21,9 @@ pub trait Displacement: Copy {
     /// The kinds of patches of the body at rest.
     type Kinds: Kinds;
 
+    /// Evaluations of curves that a plane and a curve take which separate two faces ([`crate::body::Separator`]).
+    const SEPARATORS: [u32; 2];
+
     /// Whether it displaces nothing.
     fn is_rest(&self) -> bool;
 
@@ -60,6 +63,7 @@ pub struct Rigid<const KINDS: u32 = ALL_KINDS>;
 
 impl<const KINDS: u32> Displacement for Rigid<KINDS> {
     type Kinds = KindSet<KINDS>;
+    const SEPARATORS: [u32; 2] = [0, 1];
 
     #[inline(always)]
     fn is_rest(&self) -> bool {

@@ -175,6 +175,16 @@ pub struct Field<'a> {
 }
 
 impl<'a> Field<'a> {
+    /// No displacement.
+    pub(crate) const REST: Self = Self {
+        blended: Quadratic::ZERO,
+        modes: &[],
+        q: [0.0; MAX_MODES],
+        has_bumps: false,
+        is_rest: true,
+        bounds: FieldBounds::ZERO,
+    };
+
     /// Blends at most [`MAX_MODES`] modes. Each `q` is saturated to its mode's limit; a NaN becomes 0. A missing `q` is
     /// 0.
     #[inline(never)]
@@ -260,6 +270,8 @@ impl<'a> Field<'a> {
 
 impl Displacement for &Field<'_> {
     type Kinds = KindSet<ALL_KINDS>;
+    // Those at rest, and the place on the edge.
+    const SEPARATORS: [u32; 2] = [1, 2];
 
     #[inline(always)]
     fn is_rest(&self) -> bool {

@@ -5,8 +5,9 @@
 
 use super::spoiled_files::{baked, mend, section, with_body};
 use palpate::body::{
-    Body, BodyBuffer, BodyError, BodyWitness, Edge, Effort, Face, FileError, Section, TickLimit, TickWork,
+    Body, BodyBuffer, BodyError, BodyWitness, Edge, Effort, Face, FileError, Section, Soft, TickLimit, TickWork,
 };
+use palpate::field::{Bump, FieldBounds, Mode, Quadratic};
 use palpate::math::{Vec3, vec3};
 use palpate::tally;
 use palpate::track::{Contact, Controller, Probe};
@@ -343,23 +344,30 @@ fn load<R>(mut words: Vec<u32>, work: impl Fn(&Body<'_>) -> R) -> Result<R, File
     }
 }
 
+const SPOILED: [&str; 6] = ["capped_box", "thin_plate", "ellipsoid_poles", "rounded_cylinder", "sphere_body", "teapot"];
+
+/// One of them with changes.
+fn spoiled(good: &[Pieces; 6], seed: u32) -> (usize, Pieces) {
+    let mut random = Random::new(0x71c4 + u64::from(seed));
+    // Most of them small: large ones take longer to load.
+    let of = [0, 0, 0, 1, 1, 2, 2, 3, 4, 5][(seed % 10) as usize];
+    let mut pieces = good[of].clone();
+    // Half of them with the list of a single face: their searches end within a few ticks.
+    if seed.is_multiple_of(2) {
+        pieces.entries[0] = 31 << 15 | 31 << 5;
+    }
+    for _ in 0..=(seed / 10) % 12 {
+        pieces.change(&mut random);
+    }
+    (of, pieces)
+}
+
 #[test]
 fn no_tick_takes_more_than_its_file_allows() {
     let files: u32 = std::env::var("PALPATE_FILES").map_or(200, |count| count.parse().expect("PALPATE_FILES"));
-    let names = ["capped_box", "thin_plate", "ellipsoid_poles", "rounded_cylinder", "sphere_body", "teapot"];
-    let good = names.map(|name| Pieces::of(&baked(name)));
+    let good = SPOILED.map(|name| Pieces::of(&baked(name)));
     let one = |seed: u32| {
-        let mut random = Random::new(0x71c4 + u64::from(seed));
-        // Most of them small: large ones take longer to load.
-        let of = [0, 0, 0, 1, 1, 2, 2, 3, 4, 5][(seed % 10) as usize];
-        let mut pieces = good[of].clone();
-        // Half of them with the list of a single face: their searches end within a few ticks.
-        if seed.is_multiple_of(2) {
-            pieces.entries[0] = 31 << 15 | 31 << 5;
-        }
-        for _ in 0..=(seed / 10) % 12 {
-            pieces.change(&mut random);
-        }
+        let (of, pieces) = spoiled(&good, seed);
         let work = |body: &Body<'_>| {
             let mut random = Random::new(u64::from(seed));
             let mut worst = Worst::of(body);
@@ -374,7 +382,7 @@ fn no_tick_takes_more_than_its_file_allows() {
             }
             worst
         };
-        load(pieces.words(), work).map(|worst| (names[of], worst))
+        load(pieces.words(), work).map(|worst| (SPOILED[of], worst))
     };
     let found: Vec<_> = (0..files).into_par_iter().map(one).collect();
     let mut reasons: BTreeMap<String, u32> = BTreeMap::new();
@@ -401,6 +409,86 @@ fn no_tick_takes_more_than_its_file_allows() {
     }
     println!("refused: {reasons:#?}");
     assert!(accepted >= files / 10, "{accepted} of {files} accepted");
+}
+
+/// Modes that stretch space by 0.3 in all, one in three with a bump.
+fn random_modes(body: &Body<'_>, random: &mut Random) -> Vec<Mode> {
+    let size = body.size();
+    let count = random.between(1.0, 9.0) as usize;
+    (0..count)
+        .map(|_| {
+            let mut vector = || vec3(0.0, 0.0, 0.0).map(|_| random.between(-0.3, 0.3) as f32);
+            let (constant, linear, quadratic) = (vector(), [(); 3].map(|()| vector()), [(); 6].map(|()| vector()));
+            let field = Quadratic {
+                constant,
+                linear: linear.map(|entry| entry / size),
+                quadratic: quadratic.map(|entry| entry / (size * size)),
+            };
+            let at = 0.5 * size * vector();
+            let bump = random.between(0.0, 3.0) < 1.0;
+            let bump = bump.then_some(Bump { direction: Vec3::splat(0.2), at, radius: 0.5 * size });
+            let bounds = FieldBounds { motion: 3.0, stretch: 6.0 / size, bend: 9.0 / (size * size), twist: 0.0 };
+            Mode { field, bump, limit: 0.05 * size / count as f32, bounds }
+        })
+        .collect()
+}
+
+#[test]
+fn no_tick_on_a_soft_body_takes_more_than_its_bound() {
+    let files: u32 = std::env::var("PALPATE_FILES").map_or(200, |count| count.parse().expect("PALPATE_FILES"));
+    let good = SPOILED.map(|name| Pieces::of(&baked(name)));
+    // The longest tick as a part of its bound.
+    let one = |seed: u32| {
+        let (_, pieces) = spoiled(&good, seed);
+        let work = |body: &Body<'_>| {
+            let mut random = Random::new(u64::from(seed));
+            // With more effort a tick takes its longest way at most as often.
+            let body = &if seed.is_multiple_of(3) { *body } else { body.with_effort(Effort::ONE) };
+            let modes = random_modes(body, &mut random);
+            let soft = Soft::new(*body, &modes).expect("modes");
+            let bounds = WEIGHTS.map(|weights| soft.worst_tick(weights).cost);
+            let mut most = 0.0_f64;
+            for walk in 0..8_u32 {
+                let vertex = body.worst_tick(TickWork::EACH).vertex.map_or(0, usize::from);
+                let any = (random.between(0.0, body.vertices().len() as f64) as usize).min(body.vertices().len() - 1);
+                let centre = body.vertices()[if walk.is_multiple_of(2) { vertex } else { any }].point;
+                let radius = body.size() * 10_f32.powf(random.between(-3.0, -0.5) as f32);
+                let mut state = soft.start();
+                let mut at = in_body(&mut random, radius);
+                let mut towards = at;
+                for tick in 0..2_000 {
+                    let is_in = state.body.contact != Contact::Behind;
+                    if is_in && tick % 16 == 0 {
+                        towards = in_body(&mut random, radius);
+                    }
+                    at += (towards - at) * 0.2;
+                    let q: Vec<f32> = modes
+                        .iter()
+                        .enumerate()
+                        .map(|(mode, of)| of.limit * (0.003 * (mode + 1) as f32 * tick as f32).sin())
+                        .collect();
+                    tally::take();
+                    soft.step(&Controller::SecondOrder, &mut state, Probe::at(centre + at), &q, PERIOD);
+                    soft.material_point(&state);
+                    let work = tally::take();
+                    for (bound, weights) in bounds.iter().zip(WEIGHTS) {
+                        let cost = work.weighed(weights);
+                        assert!(cost <= *bound, "{work:?} by {weights:?}, at most {bound}; {:?}", state.body.feature);
+                    }
+                    most = most.max(f64::from(work.evaluations()) / f64::from(bounds[0]));
+                    if is_in && tick > 1_000 {
+                        break;
+                    }
+                }
+            }
+            most
+        };
+        load(pieces.words(), work)
+    };
+    let found: Vec<_> = (0..files).into_par_iter().filter_map(|seed| one(seed).ok()).collect();
+    let most = found.iter().copied().fold(0.0, f64::max);
+    println!("{} of {files} files, the longest tick {most:.2} of its bound", found.len());
+    assert!(found.len() as u32 >= files / 10 && most > 0.5, "{} files, {most}", found.len());
 }
 
 #[test]
@@ -509,7 +597,7 @@ fn a_body_above_the_limit_is_refused_with_its_vertex() {
 
 #[test]
 fn the_modelled_cost_of_a_tick_is_at_least_what_the_emulator_counts() {
-    use palpate::body::tick_cost::{CURVE, SERVO, STEP, evaluation};
+    use palpate::body::tick_cost::{CURVE, SERVO, STEP, evaluation, modes};
     #[derive(serde::Deserialize)]
     struct Budget {
         instructions: BTreeMap<String, u32>,
@@ -529,6 +617,11 @@ fn the_modelled_cost_of_a_tick_is_at_least_what_the_emulator_counts() {
         }
         let step = row("closest point of the capped box, any, worst") - row("second order, polynomial, degree (3, 3)");
         assert!(STEP >= step, "{board}: {step}");
+        let soft = |count: &str| row(&format!("servo tick, a soft body of {count}, touched, worst"));
+        // Of one core alone they are counted.
+        for (count, more) in [(4, "4 modes"), (8, "8 modes")].into_iter().filter(|_| board == "m4") {
+            assert!(modes(count) - modes(1) >= soft(more) - soft("1 mode"), "{board}: {count} modes");
+        }
         for servo in ["protected", "folded back", "smooth"] {
             assert!(SERVO >= row(&format!("servo tick, {servo}, worst")), "{board}");
         }

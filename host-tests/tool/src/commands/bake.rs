@@ -102,9 +102,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
             (loaded.body, evidence) = loaded.file.located_with_evidence(loaded.body, &options, None, &progress)?;
         }
     }
-    let soft = arguments.soft.as_ref().map(|file| soft::modes(&loaded, file, arguments.modes, &arguments.held));
-    let soft = soft.transpose()?;
     let limit = TickLimit { evaluations: arguments.tick_limit, cycles: arguments.tick_cycles };
+    let soft = arguments.soft.as_ref().map(|file| soft::modes(&loaded, file, arguments.modes, &arguments.held, limit));
+    let soft = soft.transpose()?;
     let tables = loaded.body.to_body().with_context(|| loaded.file.label.clone())?.fitted(limit);
     check_tick(&loaded.file.label, &tables, limit)?;
     if let Some(out) = arguments.out.as_ref().filter(|out| is_baked(out)) {

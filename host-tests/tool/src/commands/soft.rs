@@ -2,7 +2,9 @@
 
 use super::check::Loaded;
 use anyhow::Context as _;
+use palpate::body::{Soft, TickLimit, TickWork};
 use palpate::field::{Modal, ModalStep, Mode};
+use palpate::servo::SoftContact;
 use palpate_bake::modes;
 use palpate_bake::ritz::{Material, Modes};
 use std::fmt::Write as _;
@@ -30,7 +32,13 @@ pub(super) fn path(out: Option<&Path>, model: &Path) -> PathBuf {
 ///
 /// # Errors
 /// The first thing wrong with the file, or why the body has no modes.
-pub(super) fn modes(loaded: &Loaded, path: &Path, count: usize, held: &[String]) -> anyhow::Result<SoftBake> {
+pub(super) fn modes(
+    loaded: &Loaded,
+    path: &Path,
+    count: usize,
+    held: &[String],
+    limit: TickLimit,
+) -> anyhow::Result<SoftBake> {
     let label = path.display().to_string();
     let text = std::fs::read_to_string(path).with_context(|| format!("{label}: cannot be read"))?;
     let is_given = text.parse::<toml::Table>().is_ok_and(|table| table.contains_key("mode"));
@@ -63,6 +71,23 @@ pub(super) fn modes(loaded: &Loaded, path: &Path, count: usize, held: &[String])
     let budget = modes.first().map_or(0.0, |(mode, _)| 1e3 * mode.limit);
     // All of it is f32, and as large on a 32-bit target.
     let flash = modes.len() * (size_of::<Mode>() + size_of::<ModalStep>());
-    writeln!(report, "budget {budget:.3} mm of |q| each, stretch of space at most {stretch:.3}; flash {flash} bytes")?;
+    let ram = size_of::<SoftContact>();
+    writeln!(
+        report,
+        "budget {budget:.3} mm of |q| each, stretch of space at most {stretch:.3}; flash {flash} bytes beside the \
+         body's tables, RAM {ram} bytes"
+    )?;
+    let fields: Vec<Mode> = modes.iter().map(|(mode, _)| *mode).collect();
+    let tables = loaded.body.to_body().with_context(|| loaded.file.label.clone())?;
+    let soft = Soft::new(tables, &fields).with_context(|| label.clone())?.fitted(limit);
+    let (cost, cycles, effort) = (soft.worst_tick(TickWork::EACH).cost, soft.worst_cycles(), soft.rest().effort());
+    writeln!(
+        report,
+        "worst tick {cost} evaluations, {cycles} modelled cycles of a Cortex-M4F of {}, at effort {},{}",
+        limit.cycles, effort.steps, effort.candidates
+    )?;
+    if cycles > limit.cycles {
+        writeln!(report, "that bound is above the limit: count ticks (palpate cycles), or lower the rate")?;
+    }
     Ok(SoftBake { file, report, modes })
 }
