@@ -11,5 +11,6 @@ use semihosting::println;
 #[entry]
 fn main() -> ! {
     palpate_bench::exercise::run(&mut |name, tally| println!("{name} {tally}"));
+    palpate_bench::exercise::run_soft(&mut |name, tally| println!("{name} {tally}"));
     semihosting::process::exit(0)
 }

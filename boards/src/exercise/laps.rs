@@ -1,6 +1,6 @@
 //! Servos that together have everything a servo can have.
 
-use palpate::body::Body;
+use palpate::body::{Body, Soft};
 use palpate::device::presets::{NOVINT_FALCON, POLHEM_V2, WOODEN_HAPTICS_2016, WOODEN_HAPTICS_2016_PROTECTION};
 use palpate::device::{
     Delta, Device, Endurance, LinkageArm, Motor, Protection, SerialArm, SupplyRange, VelocityMethod,
@@ -9,7 +9,7 @@ use palpate::math::{Vec3, vec3};
 use palpate::patch::SplinePatch;
 use palpate::render::{Coupling, Friction, Passivity, Texture, grating};
 use palpate::servo::{
-    Config, ContactLimits, Guarded, Rendering, SafeOutput, Safety, Servo, Settings, StuckLimits, Unguarded,
+    Config, ContactLimits, Guarded, Rendering, SafeOutput, Safety, Servo, Settings, SoftBody, StuckLimits, Unguarded,
 };
 
 /// A polynomial patch of several spans.
@@ -24,6 +24,11 @@ mod ellipsoid {
 /// A body with flat and curved faces, edges and corners.
 mod capped_box {
     include!("../../bodies/capped_box.rs");
+}
+
+/// Its modes of a foam.
+mod capped_box_modes {
+    include!("../../bodies/capped_box_modes.rs");
 }
 
 /// A servo of a mechanism with three joints.
@@ -147,16 +152,25 @@ static SPOILT: SplinePatch = ellipsoid::PATCHES[0].with_crc(!ellipsoid::TABLE_CR
 
 /// The capped box. The strokes lead right through it, deeper than any hand presses: nothing watches for lost contact,
 /// so that contact lasts all the way.
-pub static BODY: ServoOf<SerialArm, Body> = Servo::new(
-    &WOODEN_HAPTICS_2016,
-    &capped_box::BODY,
-    Config {
-        settings: CAPPED_BOX_AT,
-        rendering: Rendering { friction: Some(FRICTION), ..Rendering::PLAIN },
-        safety: Safety { contact: None, ..Safety::DEFAULT },
-        ..Config::DEFAULT
+pub static BODY: ServoOf<SerialArm, Body> = Servo::new(&WOODEN_HAPTICS_2016, &capped_box::BODY, BODY_CONFIG);
+
+const BODY_CONFIG: Config<3> = Config {
+    settings: CAPPED_BOX_AT,
+    rendering: Rendering { friction: Some(FRICTION), ..Rendering::PLAIN },
+    safety: Safety { contact: None, ..Safety::DEFAULT },
+    ..Config::DEFAULT
+};
+
+static FOAM: SoftBody = match Soft::new(capped_box::BODY, &capped_box_modes::MODES) {
+    Ok(soft) => match SoftBody::new(soft, &capped_box_modes::MOTION, CAPPED_BOX_AT.rate_hz) {
+        Ok(surface) => surface,
+        Err(_) => panic!("motion"),
     },
-);
+    Err(_) => panic!("modes"),
+};
+
+/// The capped box of foam, with eight modes.
+pub static SOFT: ServoOf<SerialArm, SoftBody> = Servo::new(&WOODEN_HAPTICS_2016, &FOAM, BODY_CONFIG);
 
 /// All protection on, with motors that are soon warm, and a supply that nobody measures for long.
 pub static GUARDED: ServoOf<SerialArm, SplinePatch, Guarded<3>> = Servo::protected(

@@ -18,6 +18,8 @@ use tally::Tally;
 
 /// Ticks of the whole run.
 pub const TICKS: u32 = 1_000_000;
+/// Ticks of [`run_soft`].
+pub const SOFT_TICKS: u32 = 100_000;
 /// Ticks from one line to the next.
 pub const TICKS_PER_LINE: u32 = 50_000;
 
@@ -61,6 +63,12 @@ pub fn run_by(runner: &mut impl Runner, most: u32) {
     laps.lap("guarded", &laps::GUARDED, serial, WOODEN_HAPTICS_REACH, 50_000);
     laps.lap("broken", &laps::BROKEN, serial, WOODEN_HAPTICS_REACH, 50_000);
     laps.lap("corrupt", &laps::CORRUPT, serial, WOODEN_HAPTICS_REACH, 50_000);
+}
+
+/// Runs a soft body, which the boards' images do not hold: [`SOFT_TICKS`], with their tally as of [`run`].
+pub fn run_soft(say: &mut impl FnMut(&str, &Tally)) {
+    let mut laps = Laps { runner: &mut Listener(say), most: u32::MAX };
+    laps.lap("soft", &laps::SOFT, &WOODEN_HAPTICS_2016.encoders, WOODEN_HAPTICS_REACH, SOFT_TICKS);
 }
 
 struct Laps<'a, R> {

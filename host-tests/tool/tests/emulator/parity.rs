@@ -24,7 +24,13 @@ fn every_core_and_the_host_agree_in_every_bit_of_a_million_ticks() {
         return;
     }
     let programs = Board::ALL.map(|board| Program::prepare(board, "parity", &[], &Progress::new()).unwrap());
-    let (host, _) = on_host();
+    let (mut host, _) = on_host();
+    let mut soft = Tally::default();
+    palpate_bench::exercise::run_soft(&mut |name, tally| {
+        host += &format!("{name} {tally}\n");
+        soft = *tally;
+    });
+    assert!(soft.touches > 25 && soft.touching > 5_000, "{soft:?}");
     thread::scope(|scope| {
         for program in &programs {
             let host = &host;
