@@ -141,8 +141,9 @@ fn gather(
     let mut gather = Gather::new(&mut part, scale, numbers, tolerance);
     for shape in &placed {
         gather.begin(&shape.name, shape.solid.is_some(), shape.placement);
-        for (shell, turned) in &shape.shells {
-            gather.shell(shell, *turned)?;
+        for (index, (shell, turned)) in shape.shells.iter().enumerate() {
+            // A solid's first shell is its outer one.
+            gather.shell(shell, *turned, shape.solid.is_some() && index > 0)?;
         }
     }
     Ok(part)

@@ -40,14 +40,15 @@ impl<'p> Gather<'p> {
         self.vertices.clear();
     }
 
-    pub(super) fn shell(&mut self, shell: &Shell<'_>, turned: bool) -> Result<(), ImportError> {
+    /// A shell, whose faces' normals point the other way if it is turned; of a solid the outer one or a void.
+    pub(super) fn shell(&mut self, shell: &Shell<'_>, turned: bool, is_void: bool) -> Result<(), ImportError> {
         for face in shell.faces() {
-            self.face(&face, turned)?;
+            self.face(&face, turned, is_void)?;
         }
         Ok(())
     }
 
-    fn face(&mut self, face: &scene::Face<'_>, turned: bool) -> Result<(), ImportError> {
+    fn face(&mut self, face: &scene::Face<'_>, turned: bool, is_void: bool) -> Result<(), ImportError> {
         let name = self.unique(face.name());
         let mut kind = kind(&face.surface().kind());
         let number = self.numbers.of(face.key()).map(|(number, _)| number);
@@ -89,7 +90,7 @@ impl<'p> Gather<'p> {
         }
         let parts = surface.parts_between_points(self.near());
         if !parts.is_empty() {
-            surface = self.part_of_edges(parts, &loops, against != turned).ok_or_else(|| {
+            surface = self.part_of_edges(parts, &loops, against != turned, is_void).ok_or_else(|| {
                 let reason =
                     "its surface goes through one point, and the face lies on both sides of it: split it there";
                 cannot(reason.to_owned())
@@ -117,7 +118,7 @@ impl<'p> Gather<'p> {
     /// has two such parts, with normals against each other: an edge at the start of the sweep decides, which lies at the
     /// start of the parameter; of half a turn, which has an edge there in both, the outline. As a part of the surface may
     /// have an edge there by chance, the importer tries the others of [`Sweep`] next.
-    fn part_of_edges(&mut self, parts: Vec<Surface>, loops: &[Vec<Use>], flip: bool) -> Option<Surface> {
+    fn part_of_edges(&mut self, parts: Vec<Surface>, loops: &[Vec<Use>], flip: bool, is_void: bool) -> Option<Surface> {
         let edges: Vec<&Edge> = loops.iter().flatten().map(|used| &self.part.edges[used.edge]).collect();
         let holds = |part: &Surface| {
             let points = edges.iter().flat_map(|edge| [0.0, 0.3, 0.5, 0.7, 1.0].map(|share| edge.at(share)[0]));
@@ -157,7 +158,8 @@ impl<'p> Gather<'p> {
         let on_the_left = || starting.iter().copied().find(|index| is_on_the_left(&fitting[*index]));
         let bulges = |outward: bool| fitting.iter().position(|part| (volume(part) < 0.0) == (flip == outward));
         let first = match self.part.sweep {
-            _ if edges.is_empty() || fitting.len() < 2 => bulges(true).filter(|_| edges.is_empty()),
+            // The material lies behind the face: around a void, beyond it.
+            _ if edges.is_empty() || fitting.len() < 2 => bulges(!is_void).filter(|_| edges.is_empty()),
             Sweep::Start if starting.len() > 1 => on_the_left(),
             Sweep::Start => starting.first().copied(),
             Sweep::Outline => fitting.iter().position(is_on_the_left),
