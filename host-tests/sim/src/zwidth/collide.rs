@@ -1,6 +1,6 @@
 //! One collision with a virtual wall.
 
-use super::Slice;
+use super::{Slice, SoftWall};
 use palpate::device::{Counts, Duty, Encoder, VelocityEstimator, VelocityMethod};
 use palpate::math::Vec3;
 use palpate::render::bounds::between_counts_delay;
@@ -102,6 +102,18 @@ impl Swing {
 /// Force and friction are constant over a sub-step, in which the motion is then exact; the sub-step in which the probe
 /// stops is the one where friction is below its limit.
 pub fn collide(slice: &Slice, wall: Wall, servo: &Loop, collision: Collision) -> Swing {
+    collide_with(slice, wall, servo, collision, None)
+}
+
+/// [`collide`] with a body that gives way, made for the loop's rate.
+pub(super) fn collide_with(
+    slice: &Slice,
+    wall: Wall,
+    servo: &Loop,
+    collision: Collision,
+    soft: Option<&SoftWall>,
+) -> Swing {
+    let mut hit = soft.map(SoftWall::start);
     let step = 1.0 / (servo.rate * SUB_STEPS as f64);
     let encoder = Encoder::new(slice.resolution as f32, 0.0);
     let estimator =
@@ -136,7 +148,11 @@ pub fn collide(slice: &Slice, wall: Wall, servo: &Loop, collision: Collision) ->
         last = now;
         let moved = now - memory.lag - believed;
         believed += moved;
-        let push = eased.map_or(penalty, |eased| eased.wall(&penalty, believed)).push(believed, rate);
+        let eased_wall = eased.map_or(penalty, |eased| eased.wall(&penalty, believed));
+        let push = match &mut hit {
+            Some(hit) => hit.push(&eased_wall, believed, rate),
+            None => eased_wall.push(believed, rate),
+        };
         given = eased.map_or(push, |eased| {
             let [push, given, moved, quickened] = [push, given, moved, rate - before].map(|along| Vec3::Z * along);
             eased.next(push, given, &Reason { moved, quickened }).z

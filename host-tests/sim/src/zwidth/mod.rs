@@ -6,8 +6,10 @@
 
 mod collide;
 mod slice;
+mod soft;
 mod sweep;
 
 pub use collide::{Collision, Loop, Swing, Wall, collide};
 pub use slice::Slice;
-pub use sweep::{DAMPINGS, DELAYS, Limit, RATES, in_words, max_stiffness, sweep};
+pub use soft::SoftWall;
+pub use sweep::{DAMPINGS, DELAYS, Limit, RATES, in_words, max_stiffness, max_stiffness_on, sweep};

@@ -1,6 +1,7 @@
 //! The sweep over dampings, rates and delays.
 
-use super::{Collision, Loop, Slice, Wall, collide};
+use super::collide::collide_with;
+use super::{Collision, Loop, Slice, SoftWall, Wall};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -51,9 +52,14 @@ pub fn in_words(slice: &Slice, stiffness: f64) -> String {
 
 /// The maximum stiffness, N/m, below which every tested wall comes to rest.
 pub fn max_stiffness(slice: &Slice, damping: f64, servo: &Loop) -> f64 {
+    max_stiffness_on(slice, damping, servo, None)
+}
+
+/// [`max_stiffness`] on a body that gives way, made for the loop's rate.
+pub fn max_stiffness_on(slice: &Slice, damping: f64, servo: &Loop, soft: Option<&SoftWall>) -> f64 {
     let holds = |stiffness: f64| {
         let pushes = PUSHES.map(|push| Collision { push: push.max(slice.coulomb * PUSH_OVER_FRICTION) });
-        pushes.into_iter().all(|push| collide(slice, Wall { stiffness, damping }, servo, push).has_decayed())
+        pushes.into_iter().all(|push| collide_with(slice, Wall { stiffness, damping }, servo, push, soft).has_decayed())
     };
     let ratio = 10_f64.powf(1.0 / STEPS_PER_DECADE);
     let most = all_or_nothing(slice);
@@ -81,13 +87,22 @@ pub fn max_stiffness(slice: &Slice, damping: f64, servo: &Loop) -> f64 {
     below
 }
 
-/// The limits for every damping at these rates and delays (in periods), on all cores. `done` is called after each.
-pub fn sweep(slice: &Slice, rates: &[f64], delays: &[f64], like: Loop, done: impl Fn() + Sync) -> Vec<Limit> {
+/// The limits for every damping at these rates and delays (in periods), on all cores, of a rigid wall or of one that gives
+/// way, with an entry for each rate. `done` is called after each.
+pub fn sweep(
+    slice: &Slice,
+    rates: &[f64],
+    delays: &[f64],
+    like: Loop,
+    soft: Option<&[SoftWall]>,
+    done: impl Fn() + Sync,
+) -> Vec<Limit> {
     let mut points = Vec::new();
-    for rate in rates {
+    for (index, rate) in rates.iter().enumerate() {
+        let soft = soft.and_then(|soft| soft.get(index));
         for &delay_periods in delays {
             for damping in DAMPINGS {
-                points.push((Loop { rate: *rate, delay_periods, ..like }, damping));
+                points.push((Loop { rate: *rate, delay_periods, ..like }, damping, soft));
             }
         }
     }
@@ -99,12 +114,12 @@ pub fn sweep(slice: &Slice, rates: &[f64], delays: &[f64], like: Loop, done: imp
             scope.spawn(|| {
                 // The costly points, at high rates, come last in the list: begin with them.
                 while let Some(index) = points.len().checked_sub(1 + next.fetch_add(1, Ordering::Relaxed)) {
-                    let (servo, damping) = points[index];
+                    let (servo, damping, soft) = points[index];
                     let limit = Limit {
                         rate: servo.rate,
                         delay_periods: servo.delay_periods,
                         damping,
-                        simulated: max_stiffness(slice, damping, &servo),
+                        simulated: max_stiffness_on(slice, damping, &servo, soft),
                         passive: servo.passive_stiffness(slice, damping),
                     };
                     if let Ok(mut found) = found.lock() {
@@ -122,6 +137,7 @@ pub fn sweep(slice: &Slice, rates: &[f64], delays: &[f64], like: Loop, done: imp
 mod tests {
     use super::*;
     use crate::devices::{DEVICES, named};
+    use crate::zwidth::collide;
     use palpate::device::VelocityMethod;
 
     const LIKE: Loop =

@@ -16,6 +16,7 @@ use palpate_bake::source::{Origin, body_source, modes_source, rust_source};
 use palpate_bake::split::Provenance;
 use palpate_bake::{BakedBody, BakedPatch, Model, NurbsPatch, modes};
 use palpate_sim::plant::direction_around;
+use palpate_sim::zwidth::SoftWall;
 use palpate_truth::oracle::OraclePoint;
 use std::path::Path;
 
@@ -125,6 +126,22 @@ impl Felt {
         // That of the emulated boards, whose loop this is.
         let body: &'static Body<'static> = Box::leak(Box::new(baked.to_body()?.with_effort(Effort::ONE)));
         Ok(Self::Body { labels: baked.labels(model), baked: Box::new(baked), body, name: model.name.clone(), soft })
+    }
+
+    /// A body that deforms by a file of modes, as walls for loops of these rates, Hz, hit from above.
+    ///
+    /// # Errors
+    /// A fault of the model or of the modes.
+    pub fn soft_walls(model: &Path, modes: &Path, rates: &[f64]) -> anyhow::Result<Vec<SoftWall>> {
+        let file = ModelFile::read(model)?;
+        let felt = Self::read(&file.model()?, &file, model, None, Some(modes))?;
+        let Self::Body { body, soft: Some(soft), .. } = &felt else { anyhow::bail!("{}: not a body", file.label) };
+        let (from, deforms) = (felt.middle() + Vec3::Z * body.size(), Soft::new(**body, soft.modes)?);
+        let wall = |rate: &f64| {
+            let wall = SoftWall::new(deforms, &soft.motion, *rate as f32, from);
+            wall.with_context(|| format!("{} at {rate} Hz", modes.display()))
+        };
+        rates.iter().map(wall).collect()
     }
 
     /// Its name.

@@ -7,6 +7,7 @@ mod sweeping;
 use plot::plot;
 use sweeping::{best, sweep_with_bar};
 
+use super::felt::Felt;
 use crate::devices::{self, Arms, ShippedDevice};
 use anyhow::Context;
 use clap::{Args, ValueEnum};
@@ -34,7 +35,13 @@ pub struct Arguments {
     /// Damping that grows with the push, and a limited change of force, as in the eased and smooth renderings.
     #[arg(long)]
     ease: bool,
-    /// Plot file (SVG); none with `--device all`.
+    /// Modes of a body that gives way, from `bake --soft`: its limits too, hit from above, beside those of a rigid wall.
+    #[arg(long, value_name = "MODES.toml", requires = "model")]
+    modes: Option<PathBuf>,
+    /// The body of --modes: a file, or the name of a shipped one.
+    #[arg(long, requires = "modes")]
+    model: Option<PathBuf>,
+    /// Plot file (SVG); none with `--device all` or `--modes`.
     #[arg(long, default_value = "palpate-report/zwidth.svg")]
     plot: PathBuf,
 }
@@ -73,12 +80,17 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         corner: arguments.corner,
         ease: arguments.ease.then_some(Ease::SMOOTH),
     };
+    if let Some((model, modes)) = arguments.model.as_ref().zip(arguments.modes.as_ref()) {
+        let soft = Felt::soft_walls(model, modes, &rates)?;
+        summary::print(&arguments.device.each(), &rates, like, Some(&soft))?;
+        return Ok(ExitCode::SUCCESS);
+    }
     let Arms::One(device) = arguments.device else {
-        summary::print(&rates, like)?;
+        summary::print(&arguments.device.each(), &rates, like, None)?;
         return Ok(ExitCode::SUCCESS);
     };
     let slice = Slice::of(device);
-    let limits = sweep_with_bar(&slice, &rates, &DELAYS, like)?;
+    let limits = sweep_with_bar(&slice, &rates, &DELAYS, like, None)?;
     print_table(&slice, device, arguments, &rates, &limits);
     if let Some(folder) = arguments.plot.parent() {
         std::fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
