@@ -70,9 +70,24 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
 
     /// Checks the bodies and takes them.
     ///
+    /// A body that gives way is no part of a scene, which pushes by its materials and would leave its modes at rest:
+    ///
+    /// ```compile_fail
+    /// use palpate::scene::{Limits, Part, Scene, SceneError};
+    /// use palpate::servo::SoftBody;
+    ///
+    /// fn scene<'a>(limits: Limits, part: Part<'a, SoftBody<'a>>) -> Result<Scene<'a, SoftBody<'a>, 1>, SceneError> {
+    ///     Scene::try_new(limits, [part])
+    /// }
+    /// # fn main() { let make: fn(_, Part<'static, SoftBody<'static>>) -> _ = scene; let _ = make; }
+    /// ```
+    ///
     /// # Errors
     /// The first choice that is refused, naming the body by its index.
     pub const fn try_new(limits: Limits, parts: [Part<'a, S>; N]) -> Result<Self, SceneError> {
+        const {
+            assert!(!S::HAS_OWN_PUSH, "a scene pushes by its materials: a body that gives way takes the scene's place");
+        }
         if N == 0 || N > 32 {
             return Err(SceneError::Bodies);
         }

@@ -177,6 +177,8 @@ impl SoftContact {
 impl Surface for SoftBody<'_> {
     type Witness = SoftContact;
 
+    const HAS_OWN_PUSH: bool = true;
+
     fn rest(&self) -> SoftContact {
         SoftContact { track: self.soft.start(), modes: [[0.0; 2]; MAX_MODES], is_too_deep: false, is_in_time: true }
     }

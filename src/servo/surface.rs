@@ -79,6 +79,9 @@ pub trait Surface: BakedTables {
     /// The state of the tracker between two ticks.
     type Witness: Tracked;
 
+    /// Whether [`Self::push`] is its own. A [`crate::scene::Scene`] pushes by its materials, so it takes no such surface.
+    const HAS_OWN_PUSH: bool = false;
+
     /// The state before the first tick.
     fn rest(&self) -> Self::Witness;
 
