@@ -133,7 +133,7 @@ impl Page {
         Ok(picture)
     }
 
-    /// Draws so many of the screen's pixels for each of the page's. What lies where stays.
+    /// Sets the device pixel ratio; the layout of the page stays the same.
     fn set_scale(&self, device_scale_factor: f64) -> anyhow::Result<()> {
         let [width, height] = PICTURE;
         self.tab.call_method(Emulation::SetDeviceMetricsOverride {
