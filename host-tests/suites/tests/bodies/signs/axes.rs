@@ -204,7 +204,11 @@ fn wrong_cold(profile: &Profile, body: &Body, solver: &Solver, centre: DVec3, ra
         }
         let small = f64::from(state.gap.abs()) <= hidden;
         let Some(is_inside) = profile.is_inside(at, ON_SURFACE * size) else {
-            wrong += usize::from(!small);
+            // A tracker may rest on a pit's pole that is a tenth of a micrometre off: the side is right.
+            if !small && profile.is_inside(at, 0.0) != Some(state.gap < 0.0) {
+                println!("{}: {at:?} on the surface: {state:?}", profile.name);
+                wrong += 1;
+            }
             continue;
         };
         let is_sure = profile.is_inside(at, ON_FIRMWARES_SURFACE * size).is_some();
