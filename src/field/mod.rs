@@ -10,6 +10,7 @@ mod modal;
 mod mode;
 
 pub use displaced::Displaced;
+pub(crate) use modal::within;
 pub use modal::{Modal, ModalStep};
 pub use mode::{Bump, Field, FieldBounds, MAX_MODES, Mode, Quadratic};
 

@@ -91,21 +91,41 @@ impl ModalStep {
         [q + (q_q * q + q_v * v + q_f * force_n), v + (v_q * q + v_v * v + v_f * force_n)]
     }
 
+    /// `[q, v]` after a number of ticks without force: their product, by squaring.
+    pub fn ring(&self, mut state: [f32; 2], ticks: u32) -> [f32; 2] {
+        let ([q_q, q_v, _], [v_q, v_v, _]) = (self.displacement, self.velocity);
+        let (mut step, mut left) = ([[q_q, q_v], [v_q, v_v]], ticks);
+        while left > 0 {
+            if left & 1 == 1 {
+                let [q, v] = state;
+                state = [q + (step[0][0] * q + step[0][1] * v), v + (step[1][0] * q + step[1][1] * v)];
+            }
+            left >>= 1;
+            step = twice(&step);
+        }
+        state
+    }
+
     /// [`Self::advance`] between two stops at `±limit`, metres: a mode that reaches one rests there, which takes its
     /// kinetic energy and gives none.
     #[inline(always)]
     pub fn advance_within(&self, state: [f32; 2], force_n: f32, limit: f32) -> [f32; 2] {
-        let [q, v] = self.advance(state, force_n);
-        // Written so that NaN comes to rest.
-        if q > -limit && q < limit {
-            [q, v]
-        } else if q >= limit {
-            [limit, 0.0]
-        } else if q <= -limit {
-            [-limit, 0.0]
-        } else {
-            [0.0; 2]
-        }
+        within(self.advance(state, force_n), limit)
+    }
+}
+
+/// A state between the stops at `±limit`.
+#[inline(always)]
+pub(crate) fn within([q, v]: [f32; 2], limit: f32) -> [f32; 2] {
+    // Written so that NaN comes to rest.
+    if q > -limit && q < limit {
+        [q, v]
+    } else if q >= limit {
+        [limit, 0.0]
+    } else if q <= -limit {
+        [-limit, 0.0]
+    } else {
+        [0.0; 2]
     }
 }
 
@@ -126,14 +146,19 @@ const fn oscillating(spring: f32, drag: f32) -> [[f32; 2]; 2] {
         order -= 1;
     }
     while halvings > 0 {
-        let square = product(&sum, &sum);
-        sum = [
-            [2.0 * sum[0][0] + square[0][0], 2.0 * sum[0][1] + square[0][1]],
-            [2.0 * sum[1][0] + square[1][0], 2.0 * sum[1][1] + square[1][1]],
-        ];
+        sum = twice(&sum);
         halvings -= 1;
     }
     sum
+}
+
+/// The increments of a step taken twice.
+const fn twice(step: &[[f32; 2]; 2]) -> [[f32; 2]; 2] {
+    let square = product(step, step);
+    [
+        [2.0 * step[0][0] + square[0][0], 2.0 * step[0][1] + square[0][1]],
+        [2.0 * step[1][0] + square[1][0], 2.0 * step[1][1] + square[1][1]],
+    ]
 }
 
 /// The same from its two real roots, apart by a factor of more than 13: the slow one has digits of its own. With less

@@ -8,7 +8,9 @@ use crate::device::Kinematics;
 use crate::math::{Vec3, inverse_sqrt, vec3};
 use crate::patch::{Patch, SplinePatch};
 use crate::render::{Feel, FeelPart, Friction};
-use crate::servo::{DialState, Guard, Knob, KnobError, KnobWitness, OnePatch, Servo, ServoState, SoftBody, Surface};
+use crate::servo::{
+    DialState, Guard, Knob, KnobError, KnobWitness, OnePatch, Servo, ServoState, SoftBody, SoftContact, Surface,
+};
 use crate::track::Placement;
 use thiserror::Error;
 
@@ -180,6 +182,9 @@ pub enum SceneError {
     /// A part of a knob's feel.
     #[error("{0}")]
     Feel(KnobError),
+    /// A body file has no modes, so nothing is uploaded in the place of a body that deforms.
+    #[error("body {0}: it deforms, and a body file has no modes; build the other body in")]
+    Deforms(u8),
 }
 
 impl SceneError {
@@ -209,6 +214,7 @@ impl SceneError {
             Self::NotOffered => "this surface does not support the command",
             Self::NotUploaded(_) => "nothing was uploaded for it",
             Self::Feel(error) => error.message(),
+            Self::Deforms(_) => "it deforms, and a body file has no modes; build the other body in",
         }
     }
 }
@@ -262,7 +268,19 @@ pub trait Commanded: Surface {
 }
 
 impl<const KINDS: u32> Commanded for Body<'_, crate::field::Rigid<KINDS>> {}
-impl Commanded for SoftBody<'_> {}
+
+/// A body file has no modes: nothing is uploaded in the place of a body that deforms.
+impl Commanded for SoftBody<'_> {
+    fn apply(&self, _: &mut SoftContact, command: &Command) -> Result<(), SceneError> {
+        match command {
+            Command::Take { body } | Command::PutBack { body } if !self.soft().modes().is_empty() => {
+                Err(SceneError::Deforms(*body))
+            }
+            _ => Err(SceneError::NotOffered),
+        }
+    }
+}
+
 impl Commanded for SplinePatch<'_> {}
 impl<P: Patch> Commanded for OnePatch<P> {}
 

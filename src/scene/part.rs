@@ -6,7 +6,7 @@ use super::rigid::{Moving, RigidBody, Wrench};
 use crate::body::Body;
 use crate::math::{Vec3, vec3};
 use crate::render::{Anchor, Friction, Texture};
-use crate::servo::Tracked;
+use crate::servo::{SoftBody, Tracked};
 use crate::track::{Contact, Placement};
 
 /// How a body moves.
@@ -80,6 +80,20 @@ impl<'a, 'b> Part<'a, Body<'b>> {
             [] => Sphere { centre_m: Vec3::ZERO, radius_m: f32::INFINITY },
         };
         Self { surface: body, motion, material, sphere, group: 0 }
+    }
+}
+
+impl<'a, 'b> Part<'a, SoftBody<'b>> {
+    /// A body of group 0 that deforms; a rigid one beside it has no modes. Its sphere, of [`Part::new`], holds its
+    /// motion too.
+    pub const fn soft(body: &'a SoftBody<'b>, motion: Motion, material: Material) -> Self {
+        let Sphere { centre_m, mut radius_m } = Part::new(body.soft().rest(), motion, material).sphere;
+        let (modes, mut index) = (body.soft().modes(), 0);
+        while index < modes.len() {
+            radius_m += modes[index].limit * modes[index].bounds.motion;
+            index += 1;
+        }
+        Self { surface: body, motion, material, sphere: Sphere { centre_m, radius_m }, group: 0 }
     }
 }
 

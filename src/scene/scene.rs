@@ -9,7 +9,7 @@ use super::state::SceneState;
 use crate::body::{Body, TableCursor, TickWork};
 use crate::math::{Vec3, saturate};
 use crate::render::{Friction, Penalty, Press, limit};
-use crate::servo::{BakedTables, Surface, Touched, Tracked};
+use crate::servo::{BakedTables, Carrier, Surface, ToolContact, Touched, Tracked};
 use crate::track::{Contact, Controller, Probe};
 
 /// No body.
@@ -70,24 +70,9 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
 
     /// Checks the bodies and takes them.
     ///
-    /// A body that gives way is no part of a scene, which pushes by its materials and would leave its modes at rest:
-    ///
-    /// ```compile_fail
-    /// use palpate::scene::{Limits, Part, Scene, SceneError};
-    /// use palpate::servo::SoftBody;
-    ///
-    /// fn scene<'a>(limits: Limits, part: Part<'a, SoftBody<'a>>) -> Result<Scene<'a, SoftBody<'a>, 1>, SceneError> {
-    ///     Scene::try_new(limits, [part])
-    /// }
-    /// # fn main() { let make: fn(_, Part<'static, SoftBody<'static>>) -> _ = scene; let _ = make; }
-    /// ```
-    ///
     /// # Errors
     /// The first choice that is refused, naming the body by its index.
     pub const fn try_new(limits: Limits, parts: [Part<'a, S>; N]) -> Result<Self, SceneError> {
-        const {
-            assert!(!S::HAS_OWN_PUSH, "a scene pushes by its materials: a body that gives way takes the scene's place");
-        }
         if N == 0 || N > 32 {
             return Err(SceneError::Bodies);
         }
@@ -271,6 +256,9 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
                 state.turn = next as u8;
                 self.visit(controller, state, next, probe, period);
                 self.promote(state, next);
+                if !state.is_tracked(next) {
+                    self.leave(state, next);
+                }
                 return;
             }
         }
@@ -292,6 +280,7 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
             let left = usize::from(state.tracked[slot]);
             if left < N {
                 state.parts[left].force = Vec3::ZERO;
+                self.leave(state, left);
             }
             state.tracked[slot] = index as u8;
             // It may be in contact since its last check: its force rises from zero.
@@ -299,29 +288,50 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
         }
     }
 
+    /// A body that was looked at in this tick and pushes nothing: one with a motion of its own moves on.
+    #[inline]
+    fn leave(&self, state: &mut SceneState<S::Witness, N>, index: usize) {
+        let part = &mut state.parts[index];
+        if S::HAS_OWN_PUSH && part.seen == state.ticks {
+            let wall = Penalty { stiffness_n_per_m: 0.0, damping_n_s_per_m: 0.0, max_force_n: 0.0 };
+            self.parts[index].surface.push(&mut part.witness, &wall, None);
+        }
+    }
+
     /// The force of a body on the tool, N, in the scene's frame; the reaction is kept for its next tick.
     #[inline(never)]
     fn press(&self, state: &mut SceneState<S::Witness, N>, index: usize, period: f32) -> Vec3 {
-        let Part { material, motion, .. } = &self.parts[index];
+        let Part { surface, material, motion, .. } = &self.parts[index];
         let part = &mut state.parts[index];
         let point = part.witness.witness().surface.point;
         let mut push = 0.0;
+        let penalty = Penalty {
+            stiffness_n_per_m: part.stiffness,
+            damping_n_s_per_m: part.damping,
+            max_force_n: self.limits.max_force_n,
+        };
         if part.contact == Contact::Touching && !part.unexplained {
-            let penalty = Penalty {
-                stiffness_n_per_m: part.stiffness,
-                damping_n_s_per_m: part.damping,
-                max_force_n: self.limits.max_force_n,
-            };
-            push = penalty.push(part.gap, part.velocity.dot(part.normal));
+            let mut carrier = Carrier::FIXED;
             if let Motion::Free(body) = motion {
-                // The spring's force with the body in the middle of the tick, not at its start.
                 let (at, normal) = (part.frame.point_to_scene(point), part.frame.to_scene(part.normal));
-                let mobility = body.mobility(&part.moving, &part.frame, at, normal);
-                let towards = part.frame.velocity_at(at).dot(normal);
-                let half = 0.5 * period;
-                let yielding = 1.0 + half * mobility * (part.stiffness * half + part.damping);
-                push = saturate((push + part.stiffness * half * towards) / yielding, 0.0, self.limits.max_force_n);
+                carrier.mobility_per_kg = body.mobility(&part.moving, &part.frame, at, normal);
+                carrier.outward_m_per_s = part.frame.velocity_at(at).dot(normal);
             }
+            if S::HAS_OWN_PUSH {
+                let touch = ToolContact { gap_m: part.gap, normal: part.normal, velocity: part.velocity, carrier };
+                push = surface.push(&mut part.witness, &penalty, Some(touch));
+            } else {
+                push = penalty.push(part.gap, part.velocity.dot(part.normal));
+                if let Motion::Free(_) = motion {
+                    // The spring's force with the body in the middle of the tick, not at its start.
+                    let half = 0.5 * period;
+                    let yielding = 1.0 + half * carrier.mobility_per_kg * (part.stiffness * half + part.damping);
+                    let towards = carrier.outward_m_per_s;
+                    push = saturate((push + part.stiffness * half * towards) / yielding, 0.0, self.limits.max_force_n);
+                }
+            }
+        } else if S::HAS_OWN_PUSH {
+            surface.push(&mut part.witness, &penalty, None);
         }
         let witness = part.witness.witness();
         let place = || (witness.parameters, witness.surface.tangent_u);

@@ -1,6 +1,6 @@
 //! From the witness point to the force on the probe.
 
-use super::{Guard, Phase, Rendering, Servo, ServoState, Surface, Tracked as _};
+use super::{Carrier, Guard, Phase, Rendering, Servo, ServoState, Surface, ToolContact, Tracked as _};
 use crate::device::Kinematics;
 use crate::math::Vec3;
 use crate::render::{Moved, Press, Reason, Tool, limit};
@@ -66,7 +66,9 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
             Some(eased) if state.contact() == Contact::Touching => eased.wall(&self.core.penalty, state.gap()),
             _ => self.core.penalty,
         };
-        let push = self.core.surface.push(&mut state.contact.witness, &wall, normal, tool.velocity);
+        let touch = ToolContact { gap_m: state.gap(), normal, velocity: tool.velocity, carrier: Carrier::FIXED };
+        let touch = (state.contact() == Contact::Touching).then_some(touch);
+        let push = self.core.surface.push(&mut state.contact.witness, &wall, touch);
         let witness = *state.contact.witness.witness();
         let surface = &witness.surface;
         let Rendering { friction, texture, .. } = &self.core.rendering;

@@ -58,7 +58,7 @@ pub use knob::{DialState, Knob, KnobError, KnobWitness, MAX_RETURN_RAD};
 pub use settings::{Rendering, RenderingError, SafeOutput, Safety, SafetyError, Settings, SettingsError, StuckLimits};
 pub use soft::{SoftBody, SoftContact};
 pub use state::ServoState;
-pub use surface::{BakedTables, OnePatch, PatchWitness, Surface, TableCheck, Touched, Tracked};
+pub use surface::{BakedTables, Carrier, OnePatch, PatchWitness, Surface, TableCheck, ToolContact, Touched, Tracked};
 pub use tick::Input;
 pub use tunable::{Tunable, TunableState, Tuning};
 pub use watch::{Deadline, FrameBridge, Heartbeat, PeriodWindow, Stillness};

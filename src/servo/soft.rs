@@ -1,9 +1,9 @@
 //! A body that deforms as a surface of the loop: its modes move under the push (theory §15).
 
-use super::surface::{BakedTables, Surface, Touched, Tracked};
+use super::surface::{BakedTables, Surface, ToolContact, Touched, Tracked};
 use crate::body::{Soft, SoftError, SoftWitness, TableCursor};
-use crate::field::{MAX_MODES, Modal, ModalStep};
-use crate::math::{Vec3, saturate};
+use crate::field::{MAX_MODES, Modal, ModalStep, within};
+use crate::math::saturate;
 use crate::render::Penalty;
 use crate::track::{Contact, Controller, Outcome, Probe, Witness};
 
@@ -17,8 +17,8 @@ use crate::track::{Contact, Controller, Outcome, Probe, Witness};
 /// use palpate::field::{FieldBounds, Modal, Mode, Quadratic};
 /// use palpate::math::{Vec3, vec3};
 /// use palpate::render::Penalty;
-/// use palpate::servo::{SoftBody, Surface};
-/// use palpate::track::{Controller, Probe};
+/// use palpate::servo::{Carrier, SoftBody, Surface, ToolContact, Tracked};
+/// use palpate::track::{Contact, Controller, Probe};
 ///
 /// # static FILE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/boards/bodies/capped_box.palp")));
 /// # let (mut faces, mut edges) = ([Face::VACANT; 6], [Edge::VACANT; 12]);
@@ -39,7 +39,13 @@ use crate::track::{Contact, Controller, Outcome, Probe, Witness};
 /// for tick in 0..400 {
 ///     let x = 0.062 - if tick < 200 { 0.000_025 * tick as f32 } else { 0.005 };
 ///     let touched = soft.follow(&Controller::SecondOrder, &mut state, Probe::at(vec3(x, 0.02, 0.01)), 2.5e-4);
-///     push = soft.push(&mut state, &wall, touched.normal, Vec3::ZERO);
+///     let touch = ToolContact {
+///         gap_m: state.gap(),
+///         normal: touched.normal,
+///         velocity: Vec3::ZERO,
+///         carrier: Carrier::FIXED,
+///     };
+///     push = soft.push(&mut state, &wall, (state.contact() == Contact::Touching).then_some(touch));
 /// }
 /// // 3 mm of spring and body in series: 1/K + 1/k = 3 mm/N.
 /// assert!((push - 1.0).abs() < 0.01);
@@ -53,6 +59,9 @@ pub struct SoftBody<'a> {
     steps: [ModalStep; MAX_MODES],
     period: f32,
 }
+
+/// Ticks after which a body that nobody has asked for is at rest: 16 s at 4 kHz.
+const MAX_UNSEEN: u32 = 1 << 16;
 
 /// State of a body that deforms in the loop.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -98,16 +107,18 @@ impl<'a> SoftBody<'a> {
 
     /// The push of this tick, N, and the motion of the modes under it to the next.
     #[inline(never)]
-    fn press(&self, state: &mut SoftContact, wall: &Penalty, velocity: Vec3) -> f32 {
-        let witness = &state.track.body;
-        let (normal, depth) = (witness.normal, -witness.gap);
+    fn press(&self, state: &mut SoftContact, wall: &Penalty, touch: &ToolContact) -> f32 {
+        let ToolContact { gap_m, normal, velocity, carrier } = *touch;
         let at = self.soft.material_point(&state.track);
         let mut along = [0.0; MAX_MODES];
         for (along, mode) in along.iter_mut().zip(self.soft.modes()) {
             *along = mode.displacement(at).dot(normal);
         }
         let Penalty { stiffness_n_per_m: stiffness, damping_n_s_per_m: damping, max_force_n } = *wall;
-        let rate = damping / self.period;
+        let (rate, half) = (damping / self.period, 0.5 * self.period);
+        // As in the rigid body's push: it moves as a whole too.
+        let depth = half * carrier.outward_m_per_s - gap_m;
+        let carried = half * carrier.mobility_per_kg * (half * stiffness + damping);
         let mut push = 0.0;
         let mut stopped = [None; MAX_MODES];
         // A mode that comes to a stop moves as far as the stop and yields no more: each round finds one more, or ends.
@@ -126,7 +137,7 @@ impl<'a> SoftBody<'a> {
             // In the middle of the tick the depth is more by half of the surface's motion; the damper has all of it.
             let spring = stiffness * (depth + 0.5 * free);
             let damper = rate * free - damping * velocity.dot(normal);
-            let stiff = 1.0 + (0.5 * stiffness + rate) * yielding;
+            let stiff = 1.0 + carried + (0.5 * stiffness + rate) * yielding;
             push = saturate((spring + damper) / stiff, 0.0, max_force_n);
             let mut is_settled = true;
             let each = self.steps.iter().zip(&state.modes).zip(self.soft.modes()).zip(along.iter().zip(&mut stopped));
@@ -145,6 +156,26 @@ impl<'a> SoftBody<'a> {
         }
         self.advance(state, along.map(|along| -along * push));
         push
+    }
+
+    /// The motion of the modes over the ticks in which nobody asked for the body, one less than `elapsed` seconds are:
+    /// free, for nothing touched it. Whether they are whole ticks.
+    #[cold]
+    #[inline(never)]
+    fn ring(&self, state: &mut SoftContact, elapsed: f32) -> bool {
+        let ticks = (elapsed / self.period + 0.5) as u32;
+        let is_in_time = ticks > 0 && (elapsed - ticks as f32 * self.period).abs() <= 1e-3 * elapsed;
+        if is_in_time {
+            let each = self.steps.iter().zip(self.soft.modes()).zip(&mut state.modes);
+            for ((step, mode), moving) in each {
+                if *moving != [0.0; 2] {
+                    // Longer, and squaring would add up its roundings.
+                    let rung = if ticks <= MAX_UNSEEN { step.ring(*moving, ticks - 1) } else { [0.0; 2] };
+                    *moving = within(rung, mode.limit);
+                }
+            }
+        }
+        is_in_time
     }
 
     /// A tick of all modes under their forces, N.
@@ -190,10 +221,10 @@ impl Surface for SoftBody<'_> {
 
     #[inline]
     fn follow(&self, controller: &Controller, state: &mut SoftContact, probe: Probe, period: f32) -> Touched {
+        state.is_in_time = self.is_for(period) || self.ring(state, period);
         let q = state.q();
         let step = self.soft.step(controller, &mut state.track, probe, &q, period);
         state.is_too_deep = step.is_too_deep;
-        state.is_in_time = self.is_for(period);
         Touched {
             normal: state.track.body.normal,
             rejected: step.body.outcome == Outcome::Rejected,
@@ -202,9 +233,11 @@ impl Surface for SoftBody<'_> {
     }
 
     #[inline]
-    fn push(&self, state: &mut SoftContact, wall: &Penalty, _: Vec3, velocity: Vec3) -> f32 {
-        if state.track.body.contact == Contact::Touching && state.is_in_time {
-            return self.press(state, wall, velocity);
+    fn push(&self, state: &mut SoftContact, wall: &Penalty, touch: Option<ToolContact>) -> f32 {
+        if let Some(touch) = touch
+            && state.is_in_time
+        {
+            return self.press(state, wall, &touch);
         }
         self.advance(state, [0.0; MAX_MODES]);
         0.0

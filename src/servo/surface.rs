@@ -79,7 +79,7 @@ pub trait Surface: BakedTables {
     /// The state of the tracker between two ticks.
     type Witness: Tracked;
 
-    /// Whether [`Self::push`] is its own. A [`crate::scene::Scene`] pushes by its materials, so it takes no such surface.
+    /// Whether [`Self::push`] is its own. A [`crate::scene::Scene`] calls it of such a surface alone.
     const HAS_OWN_PUSH: bool = false;
 
     /// The state before the first tick.
@@ -94,13 +94,13 @@ pub trait Surface: BakedTables {
     /// One tick: bounded work, no panic. `period` in seconds.
     fn follow(&self, controller: &Controller, witness: &mut Self::Witness, probe: Probe, period: f32) -> Touched;
 
-    /// The push on a tool of this velocity, N, along the normal that [`Self::follow`] gave, by the loop's wall of this
-    /// tick: called once after each `follow`. By default that of the wall while the surface is touched.
+    /// The push on a tool, N, along the normal that [`Self::follow`] gave, by the loop's wall of this tick: called once
+    /// after each `follow`, with `None` where nothing is touched. By default that of the wall.
     #[inline]
-    fn push(&self, witness: &mut Self::Witness, wall: &Penalty, normal: Vec3, velocity: Vec3) -> f32 {
-        match witness.contact() {
-            Contact::Touching => wall.push(witness.gap(), velocity.dot(normal)),
-            Contact::Behind | Contact::InFront => 0.0,
+    fn push(&self, _: &mut Self::Witness, wall: &Penalty, touch: Option<ToolContact>) -> f32 {
+        match touch {
+            Some(touch) => wall.push(touch.gap_m, touch.velocity.dot(touch.normal)),
+            None => 0.0,
         }
     }
 
@@ -122,6 +122,33 @@ pub trait Surface: BakedTables {
     /// Whole turns, of the encoder's count, that are no part of the first joint's angle any more
     /// ([`super::ServoState::turns`]).
     fn turn(&self, _: &mut Self::Witness, _: i32) {}
+}
+
+/// A tool that touches a surface, in the body's frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ToolContact {
+    /// From the tool to the surface, metres; negative inside.
+    pub gap_m: f32,
+    /// Unit vector out of the body.
+    pub normal: Vec3,
+    /// The tool's velocity past the body, m/s.
+    pub velocity: Vec3,
+    /// The body's own motion, where the push moves all of it.
+    pub carrier: Carrier,
+}
+
+/// The motion of a free body at a point of its surface, along the outward normal.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Carrier {
+    /// m/s.
+    pub outward_m_per_s: f32,
+    /// Its change by an impulse of 1 N·s, 1/kg.
+    pub mobility_per_kg: f32,
+}
+
+impl Carrier {
+    /// A body that no push moves.
+    pub const FIXED: Self = Self { outward_m_per_s: 0.0, mobility_per_kg: 0.0 };
 }
 
 /// The tables of a surface in flash, for the check that they are still those that were baked. A surface without tables

@@ -26,6 +26,8 @@ pub struct BodyEntry {
     pub name: String,
     /// Its model: a file, relative to the scene file's folder, or a shipped model.
     pub model: String,
+    /// The modes by which it deforms: a file, relative to the scene file's folder.
+    pub modes: Option<String>,
     /// Position of its model's origin, mm.
     #[serde(default)]
     pub at: [f64; 3],

@@ -7,6 +7,7 @@ use palpate::body::Body;
 use palpate::math::{Vec3, vec3};
 use palpate::render::Friction;
 use palpate::scene::{Joint, Limits, Material, Part, RigidBody, Scene, SceneError, Sphere, Tether};
+use palpate::servo::Surface;
 use palpate::track::Placement;
 
 /// Shape of a body: its tables' frame in its model, and its bounding box in that frame, metres.
@@ -18,6 +19,8 @@ pub struct Shape {
     pub low: DVec3,
     /// Its upper corner.
     pub high: DVec3,
+    /// How far its modes move its surface, metres; 0 of a rigid body.
+    pub motion: f64,
 }
 
 impl Shape {
@@ -25,9 +28,9 @@ impl Shape {
         0.5 * (self.low + self.high)
     }
 
-    /// Half the diagonal, and a thousandth for what the box was sampled by and for rounding.
+    /// Half the diagonal, and a thousandth for what the box was sampled by and for rounding; with the modes' motion.
     fn radius(&self) -> f32 {
-        (0.5 * (self.high - self.low).length() * 1.001) as f32
+        ((0.5 * (self.high - self.low).length() + self.motion) * 1.001) as f32
     }
 }
 
@@ -44,11 +47,11 @@ impl SceneFile {
     ///
     /// # Panics
     /// Where `N` is not the number of bodies.
-    pub fn scene<const N: usize>(
+    pub fn scene<S: Surface, const N: usize>(
         &self,
         limits: Limits,
-        bodies: &[(&'static Body<'static>, Shape)],
-    ) -> Result<Scene<'static, Body<'static>, N>, SceneFileError> {
+        bodies: &[(&'static S, Shape)],
+    ) -> Result<Scene<'static, S, N>, SceneFileError> {
         let parts = self.parts(limits.rate_hz, bodies);
         let parts = <[_; N]>::try_from(parts).unwrap_or_else(|_| panic!("not {N} bodies"));
         Scene::try_new(self.limits(limits), parts).map_err(|error| {
@@ -85,14 +88,19 @@ impl SceneFile {
     }
 
     /// The parts of a scene, at a servo rate, Hz.
-    pub fn parts(&self, rate: f32, bodies: &[(&'static Body<'static>, Shape)]) -> Vec<Part<'static, Body<'static>>> {
+    pub fn parts<S>(&self, rate: f32, bodies: &[(&'static S, Shape)]) -> Vec<Part<'static, S>> {
         let entries = self.body.iter().zip(bodies);
-        entries.map(|(entry, (body, shape))| entry.part(rate, body, shape)).collect()
+        entries.map(|(entry, (body, shape))| entry.part(rate, *body, shape)).collect()
+    }
+
+    /// Whether a body of it deforms.
+    pub fn is_soft(&self) -> bool {
+        self.body.iter().any(|entry| entry.modes.is_some())
     }
 }
 
 impl BodyEntry {
-    fn part(&self, rate: f32, body: &'static Body<'static>, shape: &Shape) -> Part<'static, Body<'static>> {
+    fn part<S>(&self, rate: f32, body: &'static S, shape: &Shape) -> Part<'static, S> {
         let friction = self.friction.map(|friction| Friction {
             stiffness_n_per_m: friction.stiffness,
             damping_n_s_per_m: friction.damping,

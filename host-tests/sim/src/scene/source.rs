@@ -3,32 +3,45 @@
 use super::file::SceneFile;
 use super::parts::Shape;
 use crate::recorded::{Movement, Turn};
-use palpate::body::Body;
 use palpate::math::Vec3;
 use palpate::scene::{Joint, Limits, Part, Tether};
 use palpate::track::Placement;
 use std::fmt::Write as _;
 
 /// The source: a module of tables for each body, and the scene of them as `Surface` and `SURFACE`, which an image takes
-/// as it takes a body's. `tables` is each body's own source.
-pub fn source(
-    file: &SceneFile,
-    limits: Limits,
-    bodies: &[(&'static Body<'static>, Shape)],
-    tables: &[String],
-) -> String {
+/// as it takes a body's. `tables` is each body's own source, with that of its modes.
+pub fn source<S>(file: &SceneFile, limits: Limits, bodies: &[(&'static S, Shape)], tables: &[String]) -> String {
     let mut text = String::from("// A scene, written by palpate from a scene file: not for editing.\n");
     // Those of bodies of one model are there once.
     let first = |index: usize| tables.iter().position(|other| *other == tables[index]).unwrap_or(index);
+    let (count, is_soft, rate_hz) = (tables.len(), file.is_soft(), limits.rate_hz);
+    let surface = if is_soft { "palpate::servo::SoftBody<'static>" } else { "palpate::body::Body<'static>" };
     for (index, table) in tables.iter().enumerate().filter(|(index, _)| first(*index) == *index) {
+        let mut body = format!("body_{index}::BODY.with_effort(palpate::body::Effort::ONE)");
+        if is_soft {
+            // A rigid body among them has no modes.
+            let modes = match file.body[index].modes {
+                Some(_) => format!("&body_{index}::MODES, &body_{index}::MOTION"),
+                None => "&[], &[]".to_owned(),
+            };
+            body = format!("soft({body}, {modes})");
+        }
         let _ = writeln!(
             text,
-            "/// Tables of {:?}.\nmod body_{index} {{\n{table}\n}}\n\
-             static BODY_{index}: palpate::body::Body = body_{index}::BODY.with_effort(palpate::body::Effort::ONE);",
+            "/// Tables of {:?}.\nmod body_{index} {{\n{table}\n}}\nstatic BODY_{index}: {surface} = {body};",
             file.body[index].model
         );
     }
-    let count = tables.len();
+    if is_soft {
+        let _ = writeln!(
+            text,
+            "/// A body with its modes.\nconst fn soft(body: palpate::body::Body<'static>, \
+             modes: &'static [palpate::field::Mode], motion: &[palpate::field::Modal]) -> {surface} {{\n    \
+             let Ok(soft) = palpate::body::Soft::new(body, modes) else {{ panic!(\"modes\") }};\n    \
+             let Ok(surface) = palpate::servo::SoftBody::new(soft, motion, {rate_hz:?}) else {{ panic!(\"motion\") }};\n    \
+             surface\n}}"
+        );
+    }
     let Limits {
         max_stiffness_n_per_m: max_stiffness,
         max_damping_n_s_per_m: max_damping,
@@ -39,7 +52,7 @@ pub fn source(
     } = file.limits(limits);
     let _ = writeln!(
         text,
-        "/// What is felt.\npub type Surface = palpate::scene::Scene<'static, palpate::body::Body<'static>, {count}>;\n\
+        "/// What is felt.\npub type Surface = palpate::scene::Scene<'static, {surface}, {count}>;\n\
          /// The scene.\n#[rustfmt::skip]\nconst fn scene() -> Surface {{\n    palpate::scene::Scene::new(\n    \
          palpate::scene::Limits {{ max_stiffness_n_per_m: {max_stiffness:?}, max_damping_n_s_per_m: {max_damping:?}, \
          max_force_n: {max_force:?}, release_n_per_s: {let_go:?}, rate_hz: {rate:?}, max_speed_m_per_s: {max_speed:?} }},\n    ["
@@ -77,7 +90,7 @@ fn placement(of: &Placement) -> String {
     )
 }
 
-fn material(part: &Part<'static, Body<'static>>) -> String {
+fn material<S>(part: &Part<'static, S>) -> String {
     let material = &part.material;
     let friction = material.friction.map_or_else(
         || "None".to_owned(),

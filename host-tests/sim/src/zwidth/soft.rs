@@ -5,8 +5,8 @@ use palpate::field::Modal;
 use palpate::math::Vec3;
 use palpate::patch::Patch as _;
 use palpate::render::Penalty;
-use palpate::servo::{SoftBody, SoftContact, Surface as _};
-use palpate::track::{Controller, Probe};
+use palpate::servo::{Carrier, SoftBody, SoftContact, Surface as _, ToolContact, Tracked as _};
+use palpate::track::{Contact, Controller, Probe};
 
 /// A body that deforms, hit along one line.
 #[derive(Clone, Copy, Debug)]
@@ -55,7 +55,9 @@ impl Hit<'_> {
         let SoftWall { body, period, at, outward } = *self.wall;
         let (position, velocity) = (at + outward * height, outward * rate);
         let touched = body.follow(&Controller::SecondOrder, &mut self.state, Probe { position, velocity }, period);
-        body.push(&mut self.state, penalty, touched.normal, velocity)
+        let touch = ToolContact { gap_m: self.state.gap(), normal: touched.normal, velocity, carrier: Carrier::FIXED };
+        let touch = (self.state.contact() == Contact::Touching).then_some(touch);
+        body.push(&mut self.state, penalty, touch)
     }
 }
 

@@ -1,9 +1,11 @@
 //! A body, seeded numbers, and rigid motions in double precision.
 
 use glam::{DMat3, DVec3};
-use palpate::body::Body;
+use palpate::body::{Body, Soft};
+use palpate::field::{Modal, Mode};
 use palpate::math::{Vec3, vec3};
 use palpate::scene::{Limits, Material, Motion, Part, Sphere};
+use palpate::servo::SoftBody;
 use palpate::track::Placement;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
@@ -33,6 +35,32 @@ pub const MATERIAL: Material = Material::new(600.0, 1.0);
 /// The box, with the ball that holds it: half the diagonal of 60 × 40 × 34 mm about (30, 20, 17) mm is 39.9 mm.
 pub const fn part(motion: Motion, material: Material) -> Part<'static, Body<'static>> {
     Part { sphere: Sphere { centre_m: vec3(0.03, 0.02, 0.017), radius_m: 0.04 }, ..Part::new(&BOX, motion, material) }
+}
+
+mod deformed {
+    include!("../../../../boards/bodies/capped_box_modes.rs");
+}
+
+/// How many modes the foam has.
+pub const MODES: usize = 4;
+/// Their motion.
+pub static MOTION: [Modal; MODES] = *deformed::MOTION.first_chunk().unwrap();
+/// The box of a foam, held at its bottom.
+pub static FOAM: SoftBody = deforming(deformed::MODES.first_chunk::<MODES>().unwrap(), &MOTION);
+/// The box without modes, as it stands beside the foam in a scene.
+pub static STIFF: SoftBody = deforming(&[], &[]);
+
+const fn deforming(modes: &'static [Mode], motion: &[Modal]) -> SoftBody<'static> {
+    let Ok(soft) = Soft::new(BOX, modes) else { panic!() };
+    let Ok(body) = SoftBody::new(soft, motion, RATE) else { panic!() };
+    body
+}
+
+/// One of the two, with the ball of [`part`] and the motion of its surface.
+pub fn soft(body: &'static SoftBody<'static>, motion: Motion, material: Material) -> Part<'static, SoftBody<'static>> {
+    let Sphere { centre_m, radius_m } = part(motion, material).sphere;
+    let of_modes: f32 = body.soft().modes().iter().map(|mode| mode.limit * mode.bounds.motion).sum();
+    Part { sphere: Sphere { centre_m, radius_m: radius_m + of_modes }, ..Part::soft(body, motion, material) }
 }
 
 /// Seeded numbers.

@@ -1,12 +1,12 @@
 //! Scene files: what is read, and what is refused by whose name.
 
-use crate::common::{BOX, LIMITS, RATE};
+use crate::common::{BOX, FOAM, LIMITS, RATE, STIFF};
 use glam::DVec3;
 use palpate::scene::{Motion, SceneError};
 use palpate_sim::scene::{SceneFile, SceneFileError, Shape, source};
 
 const SHIPPED: &str = include_str!("../../../scenes/turntable.toml");
-const SHAPE: Shape = Shape { centre: DVec3::ZERO, low: DVec3::ZERO, high: DVec3::new(0.06, 0.04, 0.0335) };
+const SHAPE: Shape = Shape { centre: DVec3::ZERO, low: DVec3::ZERO, high: DVec3::new(0.06, 0.04, 0.0335), motion: 0.0 };
 
 #[test]
 fn the_scene_that_ships_is_what_it_says() {
@@ -17,10 +17,25 @@ fn the_scene_that_ships_is_what_it_says() {
     let Motion::Free(block) = parts[2].motion else { panic!("the block is free") };
     // A block of 60 × 40 × 33.5 mm and 200 g, about its longest side.
     assert!((block.inertia_kg_m2.x - 0.2 * (0.04 * 0.04 + 0.0335 * 0.0335) / 12.0).abs() < 1e-9);
-    file.scene::<3>(LIMITS, &bodies).unwrap();
+    file.scene::<_, 3>(LIMITS, &bodies).unwrap();
     let text = source(&file, LIMITS, &bodies, &["tables".to_owned(), "tables".to_owned(), "tables".to_owned()]);
     assert_eq!(text.matches("mod body_").count(), 1, "tables of one model are there once");
     assert_eq!(text.matches("surface: &BODY_0,").count(), 3);
+}
+
+/// One of the turntable's parts is a foam.
+#[test]
+fn a_scene_with_a_soft_body_is_one_of_soft_bodies() {
+    let file = with("model = \"capped_box\"", "model = \"capped_box\"\nmodes = \"foam.toml\"").unwrap();
+    let bodies = [(&FOAM, Shape { motion: 0.004, ..SHAPE }), (&STIFF, SHAPE), (&STIFF, SHAPE)];
+    let spheres = file.parts(RATE, &bodies).iter().map(|part| part.sphere.radius_m).collect::<Vec<_>>();
+    assert!((spheres[0] - spheres[1] - 0.004).abs() < 1e-5, "{spheres:?}");
+    file.scene::<_, 3>(LIMITS, &bodies).unwrap();
+    let tables = ["tables and modes", "tables", "tables"].map(str::to_owned);
+    let text = source(&file, LIMITS, &bodies, &tables);
+    assert_eq!(text.matches("SoftBody<'static> = soft(body_0::BODY").count(), 1);
+    assert_eq!(text.matches("SoftBody<'static> = soft(body_1::BODY").count(), 1);
+    assert!(text.contains("&body_0::MODES, &body_0::MOTION);") && text.contains("&[], &[]);"));
 }
 
 /// The shipped scene with one text in the place of another.
@@ -51,7 +66,7 @@ fn what_makes_no_sense_is_refused_by_name() {
 #[test]
 fn what_the_library_refuses_names_the_body() {
     let bodies = [(&BOX, SHAPE); 3];
-    let refused = |from, to| with(from, to).unwrap().scene::<3>(LIMITS, &bodies).unwrap_err();
+    let refused = |from, to| with(from, to).unwrap().scene::<_, 3>(LIMITS, &bodies).unwrap_err();
     for (from, to, name, error) in [
         ("mass = 0.2", "mass = 0.0", "block on a spring", SceneError::Motion(2)),
         ("mass = 0.2", "mass = 1e-5", "block on a spring", SceneError::Light(2)),

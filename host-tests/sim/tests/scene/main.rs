@@ -7,4 +7,5 @@ mod loops;
 mod motion;
 mod orders;
 mod several;
+mod soft;
 mod switching;

@@ -1,6 +1,6 @@
 //! Switched while it is felt.
 
-use crate::common::{LIMITS, MATERIAL, PERIOD, RATE, Random, double, part, single};
+use crate::common::{FOAM, LIMITS, MATERIAL, PERIOD, RATE, Random, double, part, single, soft};
 use glam::DVec3;
 use palpate::math::Vec3;
 use palpate::scene::{Motion, Part, Path, Scene, SceneError};
@@ -13,10 +13,15 @@ const SWITCHES: u32 = 100_000;
 /// of it, the force of a tick is that of the one before but for what is let go of.
 #[test]
 fn no_switch_changes_the_force_by_more_than_is_let_go_of_in_a_tick() {
+    switch(part(Motion::Resting(Placement::IDENTITY), MATERIAL), SWITCHES);
+    switch(soft(&FOAM, Motion::Resting(Placement::IDENTITY), MATERIAL), SWITCHES / 20);
+}
+
+fn switch<S: Surface>(part: Part<'_, S>, switches: u32) {
     let mut random = Random::new(4);
     let origin = DVec3::new(-0.03, -0.02, -0.033);
     let place = |x: f64, z: f64| Placement { origin: single(origin + DVec3::new(x, 0.0, z)), ..Placement::IDENTITY };
-    let mut parts = [part(Motion::Resting(place(0.0, 0.0)), MATERIAL); 3];
+    let mut parts = [Part { motion: Motion::Resting(place(0.0, 0.0)), ..part }; 3];
     for (index, part) in parts.iter_mut().enumerate() {
         part.group = index as u8;
     }
@@ -28,7 +33,7 @@ fn no_switch_changes_the_force_by_more_than_is_let_go_of_in_a_tick() {
     let (mut last, mut until) = (DVec3::ZERO, 2_000);
     let mut probe = DVec3::new(0.0, 0.0, 0.02);
     let mut tick = 0_u32;
-    while done < SWITCHES {
+    while done < switches {
         tick += 1;
         // It comes from the front now and then, and rests some millimetres deep in between.
         let phase = f64::from(tick % 600) / 600.0;

@@ -11,8 +11,8 @@ use palpate::math::{Vec3, vec3};
 use palpate::patch::Patch as _;
 use palpate::render::Penalty;
 use palpate::servo::{
-    Config, Event, Fault, Input, Output, Phase, ResetReason, Servo, ServoState, Settings, SoftBody, SoftContact,
-    Surface as _,
+    Carrier, Config, Event, Fault, Input, Output, Phase, ResetReason, Servo, ServoState, Settings, SoftBody,
+    SoftContact, Surface as _, ToolContact, Touched, Tracked as _,
 };
 use palpate::track::{Contact, Controller, Probe};
 use palpate_bake::ritz::{Material, Modes};
@@ -366,6 +366,13 @@ fn spring(depth: f64) -> f64 {
     if depth * k < most { 0.5 * k * depth * depth } else { most * (depth - 0.5 * most / k) }
 }
 
+/// The push of a tick on a body that nothing moves.
+fn pushed(surface: &SoftBody<'_>, contact: &mut SoftContact, wall: &Penalty, touched: Touched, probe: Probe) -> f32 {
+    let (normal, velocity, carrier) = (touched.normal, probe.velocity, Carrier::FIXED);
+    let touch = ToolContact { gap_m: contact.gap(), normal, velocity, carrier };
+    surface.push(contact, wall, (contact.contact() == Contact::Touching).then_some(touch))
+}
+
 fn press(body: &'static Body<'static>, moving: &[(Mode, Modal)], law: Law, ticks: u32, slow_only: bool) -> Books {
     let (modes, modals): (Vec<_>, Vec<_>) = moving.iter().copied().unzip();
     let wall = Penalty { stiffness_n_per_m: STIFFNESS, damping_n_s_per_m: 0.0, max_force_n: MAX_FORCE };
@@ -397,7 +404,7 @@ fn press(body: &'static Body<'static>, moving: &[(Mode, Modal)], law: Law, ticks
             Law::MidTick => {
                 let before = both(&contact);
                 let touched = surface.follow(&Controller::SecondOrder, &mut contact, target, PERIOD);
-                let push = surface.push(&mut contact, &wall, touched.normal, target.velocity);
+                let push = pushed(&surface, &mut contact, &wall, touched, target);
                 (before, both(&contact), *contact.track(), push)
             }
             Law::Explicit => {

@@ -50,7 +50,7 @@ pub enum Felt {
 }
 
 /// The modes of a body that deforms.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct SoftModes {
     modes: &'static [Mode],
     motion: Vec<Modal>,
@@ -68,6 +68,20 @@ impl SoftModes {
         Ok(Self { modes: modes.leak(), motion })
     }
 
+    /// How far they move the surface of a body at most, metres.
+    pub(super) fn motion(&self) -> f64 {
+        self.modes.iter().map(|mode| f64::from(mode.limit * mode.bounds.motion)).sum()
+    }
+
+    /// As Rust source.
+    ///
+    /// # Errors
+    /// A number that is not finite.
+    pub(super) fn tables(&self) -> anyhow::Result<String> {
+        let modes: Vec<_> = self.modes.iter().copied().zip(self.motion.iter().copied()).collect();
+        Ok(modes_source(&modes)?)
+    }
+
     /// A body with these modes, for a loop of this rate, Hz.
     ///
     /// # Errors
@@ -79,8 +93,7 @@ impl SoftModes {
 
     /// The source of a body that deforms, from that of the body.
     fn source(&self, body: &str, rate_hz: f32) -> anyhow::Result<String> {
-        let modes: Vec<_> = self.modes.iter().copied().zip(self.motion.iter().copied()).collect();
-        let modes = modes_source(&modes)?;
+        let modes = self.tables()?;
         Ok(format!(
             "mod rest {{\n{body}{modes}}}\n#[allow(unused_imports)]\npub use rest::{{CENTRE, TABLE_CRC}};\n\
              /// The type of the surface.\npub type Surface = palpate::servo::SoftBody<'static>;\n\

@@ -1,5 +1,6 @@
 //! A scene file as a surface: its bodies, baked, in their places.
 
+use super::felt::SoftModes;
 use super::progress;
 use crate::drawing::View;
 use crate::models::ModelFile;
@@ -10,6 +11,7 @@ use palpate::body::{Body, Effort};
 use palpate::math::Vec3;
 use palpate::patch::Patch as _;
 use palpate::scene::{Limits, Motion, Scene};
+use palpate::servo::SoftBody;
 use palpate::track::Placement;
 use palpate_bake::source::{Origin, body_source};
 use palpate_bake::{BakedBody, Model};
@@ -29,6 +31,8 @@ const REACH: f64 = 0.004;
 pub struct FeltScene {
     file: SceneFile,
     bodies: Vec<(&'static Body<'static>, Shape)>,
+    /// Of each body; none of a rigid one.
+    modes: Vec<SoftModes>,
     tables: Vec<String>,
     sources: Vec<Source>,
 }
@@ -48,14 +52,17 @@ impl FeltScene {
     /// A fault of the file, or of one of its models.
     pub fn read(from: &ModelFile, path: &Path) -> anyhow::Result<Self> {
         let file = SceneFile::read(&from.text).with_context(|| from.label.clone())?;
-        let (mut bodies, mut tables, mut sources) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut bodies, mut modes, mut tables, mut sources) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let folder = path.parent().unwrap_or(Path::new(""));
         for entry in &file.body {
             // From the scene's own folder, or one that ships.
-            let beside = path.parent().unwrap_or(Path::new("")).join(&entry.model);
+            let beside = folder.join(&entry.model);
             let named = if beside.is_file() { beside } else { entry.model.clone().into() };
-            let model_file =
-                ModelFile::read(&named).with_context(|| format!("{}: body {:?}", from.label, entry.name))?;
+            let of_body = || format!("{}: body {:?}", from.label, entry.name);
+            let model_file = ModelFile::read(&named).with_context(of_body)?;
             let model = model_file.model()?;
+            let deforms = entry.modes.as_ref().map(|modes| SoftModes::read(&folder.join(modes), &model));
+            let deforms = deforms.transpose().with_context(of_body)?.unwrap_or_default();
             let baked: BakedBody = model_file.body(&model)?;
             let options = baked.locator_options();
             let bar = progress::work();
@@ -68,13 +75,18 @@ impl FeltScene {
                 model: model_file.bytes(),
                 centre: model.centre,
             };
-            tables.push(body_source(&origin, &baked, &baked.labels(&model))?);
+            let mut table = body_source(&origin, &baked, &baked.labels(&model))?;
+            if entry.modes.is_some() {
+                table += &deforms.tables()?;
+            }
+            tables.push(table);
             // That of the emulated boards, whose loop this is.
             let body: &'static Body<'static> = Box::leak(Box::new(baked.to_body()?.with_effort(Effort::ONE)));
-            bodies.push((body, shape(body, model.centre)));
+            bodies.push((body, shape(body, model.centre, deforms.motion())));
+            modes.push(deforms);
             sources.push(Source { digest: model_file.digest(), model, baked });
         }
-        Ok(Self { file, bodies, tables, sources })
+        Ok(Self { file, bodies, modes, tables, sources })
     }
 
     /// Its name.
@@ -101,7 +113,28 @@ impl FeltScene {
         }
     }
 
-    /// The scene, of `N` bodies.
+    /// Whether a body of it deforms.
+    pub fn is_soft(&self) -> bool {
+        self.file.is_soft()
+    }
+
+    /// The scene, of `N` bodies that deform or have no modes.
+    ///
+    /// # Errors
+    /// The library's refusal.
+    pub fn soft_scene<const N: usize>(
+        &self,
+        limits: Limits,
+    ) -> anyhow::Result<&'static Scene<'static, SoftBody<'static>, N>> {
+        let each = self.bodies.iter().zip(&self.modes).zip(&self.file.body);
+        let soft = each.map(|(((body, shape), modes), entry)| {
+            let body = modes.on(body, limits.rate_hz).with_context(|| format!("body {:?}", entry.name))?;
+            anyhow::Ok((body, *shape))
+        });
+        Ok(Box::leak(Box::new(self.file.scene(limits, &soft.collect::<anyhow::Result<Vec<_>>>()?)?)))
+    }
+
+    /// The scene, of `N` rigid bodies.
     ///
     /// # Errors
     /// The library's refusal.
@@ -179,9 +212,9 @@ impl FeltScene {
     }
 }
 
-fn shape(body: &Body<'_>, centre: DVec3) -> Shape {
+fn shape(body: &Body<'_>, centre: DVec3, motion: f64) -> Shape {
     let (low, high) = bounds(body, &Placement::IDENTITY);
-    Shape { centre, low, high }
+    Shape { centre, low, high, motion }
 }
 
 /// The box of a grid of points on each face.

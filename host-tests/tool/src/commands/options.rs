@@ -111,7 +111,11 @@ impl SceneOptions {
             if self.patch.is_some() {
                 bail!("--patch applies to models; {} is a scene", file.label);
             }
-            ensure!(self.modes.is_none(), "--modes applies to models; {} is a scene", file.label);
+            ensure!(
+                self.modes.is_none(),
+                "--modes applies to models; {} is a scene, whose bodies name theirs",
+                file.label
+            );
             (Felt::Scene(FeltScene::read(&file, &self.model)?), DVec3::ZERO)
         } else {
             let model = file.model()?;
@@ -213,15 +217,27 @@ impl Scene {
             }
             Felt::Body { body, soft: None, .. } => self.host_loop_on(device, *body),
             Felt::Scene(scene) => match scene.count() {
-                1 => self.host_loop_on(device, scene.scene::<1>(self.limits())?),
-                2 => self.host_loop_on(device, scene.scene::<2>(self.limits())?),
-                3 => self.host_loop_on(device, scene.scene::<3>(self.limits())?),
-                4 => self.host_loop_on(device, scene.scene::<4>(self.limits())?),
-                5 => self.host_loop_on(device, scene.scene::<5>(self.limits())?),
-                6 => self.host_loop_on(device, scene.scene::<6>(self.limits())?),
-                7 => self.host_loop_on(device, scene.scene::<7>(self.limits())?),
-                _ => self.host_loop_on(device, scene.scene::<{ palpate_sim::scene::MAX_BODIES }>(self.limits())?),
+                1 => self.host_loop_in::<1, K>(device, scene),
+                2 => self.host_loop_in::<2, K>(device, scene),
+                3 => self.host_loop_in::<3, K>(device, scene),
+                4 => self.host_loop_in::<4, K>(device, scene),
+                5 => self.host_loop_in::<5, K>(device, scene),
+                6 => self.host_loop_in::<6, K>(device, scene),
+                7 => self.host_loop_in::<7, K>(device, scene),
+                _ => self.host_loop_in::<{ palpate_sim::scene::MAX_BODIES }, K>(device, scene),
             },
+        }
+    }
+
+    fn host_loop_in<const N: usize, K: Kinematics<3>>(
+        &self,
+        device: &'static Device<K, 3>,
+        scene: &FeltScene,
+    ) -> anyhow::Result<Box<dyn Link>> {
+        if scene.is_soft() {
+            self.host_loop_on(device, scene.soft_scene::<N>(self.limits())?)
+        } else {
+            self.host_loop_on(device, scene.scene::<N>(self.limits())?)
         }
     }
 
@@ -243,6 +259,7 @@ impl Scene {
     /// Why the page could not feel it.
     pub fn recording(&self, trace: &Trace, on: &str) -> anyhow::Result<Recording> {
         let (bodies, scene) = match &self.felt {
+            Felt::Scene(scene) if scene.is_soft() => return Err(Cut::Soft.into()),
             Felt::Scene(scene) => scene.recorded(self.limits())?,
             Felt::Body { soft: Some(_), .. } => return Err(Cut::Soft.into()),
             Felt::Body { baked, .. } => (vec![self.recorded_body(&self.file.model()?, baked)?], None),
