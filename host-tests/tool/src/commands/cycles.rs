@@ -2,7 +2,7 @@
 //! executes.
 
 use crate::budgets::soft_choice;
-use crate::cycles::{Core, Figure, LOOPS, ROOTS, Root, SERVO, estimate};
+use crate::cycles::{Calls, Core, Figure, LOOPS, ROOTS, Root, SERVO, estimate};
 use crate::firmware::{Board, Program, Progress};
 use clap::Args;
 use std::process::ExitCode;
@@ -12,7 +12,11 @@ use std::process::ExitCode;
 /// The emulator logs every instruction of each core's image and a model of the core adds up their cycles. The result is
 /// an estimated range, not a measurement.
 #[derive(Args, Debug)]
-pub struct Arguments {}
+pub struct Arguments {
+    /// Only the ticks of a body that gives way, on a Cortex-M4F
+    #[arg(long)]
+    soft: bool,
+}
 
 const MODEL: &str = "\
 The model, an estimate and no measurement; no wait states, as in CCM, ITCM and DTCM (tables in flash cost more):
@@ -25,16 +29,25 @@ The model, an estimate and no measurement; no wait states, as in CCM, ITCM and D
 ///
 /// # Errors
 /// The cause, for the terminal.
-pub fn run(_: &Arguments) -> anyhow::Result<ExitCode> {
+pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     // The clock of the board for the bench with this core, Hz.
     for (board, core, chip, clock) in
         [(Board::M4, Core::M4, "STM32G474", 170e6), (Board::M7, Core::M7, "i.MX RT1062", 600e6)]
     {
+        if arguments.soft && board != Board::M4 {
+            continue;
+        }
         let progress = Progress::new();
-        let mut found = estimate(&Program::prepare(board, "budget", &[], &progress)?, core, &ROOTS)?;
+        let mut found = if arguments.soft {
+            Vec::new()
+        } else {
+            estimate(&Program::prepare(board, "budget", &[], &progress)?, core, &ROOTS)?
+        };
+        let is_soft = |feature: &str| feature.starts_with("soft");
+        let is_wanted = |feature| board == Board::M4 && (is_soft(feature) || !arguments.soft);
         // One core: they take minutes to build.
-        for (feature, title) in LOOPS.into_iter().filter(|_| board == Board::M4) {
-            let program = if feature.starts_with("soft") {
+        for (feature, title) in LOOPS.into_iter().filter(|(feature, _)| is_wanted(feature)) {
+            let program = if is_soft(feature) {
                 Program::prepare_with(&soft_choice(board)?, "budget", &[feature], &progress)?
             } else {
                 Program::prepare(board, "budget", &[feature], &progress)?
@@ -43,26 +56,35 @@ pub fn run(_: &Arguments) -> anyhow::Result<ExitCode> {
         }
         println!("{}: estimated cycles; microseconds on a {chip} at {} MHz", board.core(), clock / 1e6);
         println!(
-            "  {:<28}{:>13}{:>15}{:>13}{:>15}{:>15}",
-            "", "instructions", "cycles, median", "at most", "cycles, worst", "us, worst"
+            "  {:<28}{:>13}{:>17}{:>13}{:>17}{:>15}{:>14}",
+            "", "instructions", "cycles, median", "at most", "cycles, worst", "us, worst", "load at 4 kHz"
         );
         for (root, calls) in &found {
-            let figure = |values: &[u32]| Figure::of(values).unwrap_or(Figure { median: 0, worst: 0 });
-            let (instructions, low, high) =
-                (figure(&calls.instructions), figure(&calls.cycles[0]), figure(&calls.cycles[1]));
-            let microseconds = |cycles: u32| 1e6 * f64::from(cycles) / clock;
-            println!(
-                "  {:<28}{:>13}{:>15}{:>13}{:>15}{:>15}",
-                root.title,
-                instructions.median,
-                format!("{} to {}", low.median, high.median),
-                instructions.worst,
-                format!("{} to {}", low.worst, high.worst),
-                format!("{:.1} to {:.1}", microseconds(low.worst), microseconds(high.worst)),
-            );
+            row(root.title, calls, clock);
+            if calls.is_pushed.contains(&true) {
+                row("  in contact", &calls.which(true), clock);
+                row("  free", &calls.which(false), clock);
+            }
         }
         println!();
     }
     println!("{MODEL}");
     Ok(ExitCode::SUCCESS)
+}
+
+/// A line of the table. The load is that of the worst call, at the upper end of the range.
+fn row(title: &str, calls: &Calls, clock: f64) {
+    let figure = |values: &[u32]| Figure::of(values).unwrap_or(Figure { median: 0, worst: 0 });
+    let (instructions, low, high) = (figure(&calls.instructions), figure(&calls.cycles[0]), figure(&calls.cycles[1]));
+    let microseconds = |cycles: u32| 1e6 * f64::from(cycles) / clock;
+    println!(
+        "  {:<28}{:>13}{:>17}{:>13}{:>17}{:>15}{:>14}",
+        title,
+        instructions.median,
+        format!("{} to {}", low.median, high.median),
+        instructions.worst,
+        format!("{} to {}", low.worst, high.worst),
+        format!("{:.1} to {:.1}", microseconds(low.worst), microseconds(high.worst)),
+        format!("{:.1} %", 100.0 * f64::from(high.worst) / (clock / 4e3)),
+    );
 }

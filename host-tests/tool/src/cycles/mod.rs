@@ -32,12 +32,17 @@ const EVALUATE: &str = "palpate_emulated::budget::evaluation::evaluate";
 pub const SERVO: Root =
     Root { function: "palpate_emulated::budget::servo::tick", title: "servo tick", skip: 0, take: 20_000 };
 
+/// Called in a tick of a soft body in contact, and in no other.
+const PUSH: &str = "palpate::servo::soft::SoftBody::press";
+
 /// Loops that have an image of their own: its feature, and what a tick is called; on the foam box where that is soft.
-pub const LOOPS: [(&str, &str); 4] = [
+pub const LOOPS: [(&str, &str); 6] = [
     ("counted", "servo tick, protected"),
     ("folded", "servo tick, folded back"),
     ("smooth", "servo tick, smooth"),
+    ("soft", "servo tick, 1 mode"),
     ("soft-four", "servo tick, 4 modes"),
+    ("soft-eight", "servo tick, 8 modes"),
 ];
 
 /// The estimated calls. The program first evaluates patches of degree 1 to 5, polynomial, then rational.
@@ -61,6 +66,24 @@ pub struct Calls {
     pub instructions: Vec<u32>,
     /// Cycles of each call, at the lower and the upper end of the range.
     pub cycles: [Vec<u32>; 2],
+    /// Whether a soft body pushed back in it.
+    pub is_pushed: Vec<bool>,
+}
+
+impl Calls {
+    /// The calls in which a soft body pushed back, or those in which none did.
+    #[must_use]
+    pub fn which(&self, pushed: bool) -> Self {
+        let of = |values: &[u32]| {
+            values.iter().zip(&self.is_pushed).filter(|(_, is)| **is == pushed).map(|(value, _)| *value).collect()
+        };
+        let [low, high] = &self.cycles;
+        Self {
+            instructions: of(&self.instructions),
+            cycles: [of(low), of(high)],
+            is_pushed: self.is_pushed.iter().copied().filter(|is| *is == pushed).collect(),
+        }
+    }
 }
 
 /// A figure of the table: median and maximum.

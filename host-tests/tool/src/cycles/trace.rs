@@ -1,7 +1,7 @@
 //! The instructions that a call executes, in their order, as the emulator logs them.
 
 use super::model::{Core, Cost, Cycles};
-use super::{Calls, Root};
+use super::{Calls, PUSH, Root};
 use crate::firmware::{Program, SetUpError};
 use crate::proof::{Code, CodeError, Flow, Tree};
 use std::collections::{BTreeMap, HashMap, HashSet};
@@ -60,7 +60,10 @@ pub fn estimate(program: &Program, core: Core, roots: &[Root]) -> Result<Vec<(Ro
         .collect();
     let ranges: Vec<(u64, u64)> = functions.values().map(|function| (function.address, function.size)).collect();
 
-    let mut all: HashMap<u64, Vec<(u32, [u32; 2])>> = HashMap::new();
+    // Of a rigid body there is none.
+    let push = code.functions().find(|function| function.name == PUSH).map(|function| function.address);
+
+    let mut all: HashMap<u64, Vec<(u32, [u32; 2], bool)>> = HashMap::new();
     let (mut open, mut finished, mut perhaps) = (Vec::<Window>::new(), Vec::new(), None);
     let mut child = program.trace(&ranges)?;
     let log = child.stderr.take().ok_or_else(|| io::Error::other("the emulator has none"))?;
@@ -98,7 +101,9 @@ pub fn estimate(program: &Program, core: Core, roots: &[Root]) -> Result<Vec<(Ro
                 continue;
             }
             for window in finished.drain(..) {
-                all.entry(window.root).or_default().push(spent(core, &costs, &window.executed));
+                let (instructions, cycles) = spent(core, &costs, &window.executed);
+                let is_pushed = push.is_some_and(|push| window.executed.contains(&push));
+                all.entry(window.root).or_default().push((instructions, cycles, is_pushed));
             }
             if wanted.iter().all(|(root, calls)| all.get(root).is_some_and(|found| found.len() >= *calls)) {
                 child.kill()?;
@@ -112,8 +117,10 @@ pub fn estimate(program: &Program, core: Core, roots: &[Root]) -> Result<Vec<(Ro
         .map(|root| {
             let address = code.named(root.function)?.address;
             let mut calls = Calls::default();
-            for (instructions, [low, high]) in all.get(&address).into_iter().flatten().skip(root.skip).take(root.take) {
+            let found = all.get(&address).into_iter().flatten();
+            for (instructions, [low, high], is_pushed) in found.skip(root.skip).take(root.take) {
                 calls.instructions.push(*instructions);
+                calls.is_pushed.push(*is_pushed);
                 calls.cycles[0].push(*low);
                 calls.cycles[1].push(*high);
             }
