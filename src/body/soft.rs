@@ -111,6 +111,13 @@ pub struct SoftStep {
     pub is_too_deep: bool,
 }
 
+impl SoftWitness {
+    /// `q` of the last tick, metres, each within its mode's limit: of the body as it was tracked.
+    pub const fn q(&self) -> &[f32; MAX_MODES] {
+        &self.q
+    }
+}
+
 impl<'a> Soft<'a> {
     /// A body with its modes.
     ///

@@ -10,7 +10,12 @@ pub struct Displaced<'p, D> {
     pub(crate) by: D,
 }
 
-impl<D: Displacement> Displaced<'_, D> {
+impl<'p, D: Displacement> Displaced<'p, D> {
+    /// A patch at rest and its displacement.
+    pub const fn new(rest: &'p SplinePatch<'p>, by: D) -> Self {
+        Self { rest, by }
+    }
+
     /// [`Patch::evaluate_curved`] in a copy of its own.
     #[inline(always)]
     pub(crate) fn evaluate_apart(&self, parameters: [f32; 2]) -> CurvedPoint {

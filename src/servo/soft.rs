@@ -105,6 +105,15 @@ impl<'a> SoftBody<'a> {
         &self.soft
     }
 
+    /// Puts a mode to rest at some `q`, metres, saturated to its limit; a NaN becomes 0. Before each tick, it holds it
+    /// there.
+    pub fn put(&self, state: &mut SoftContact, mode: usize, q: f32) {
+        if let (Some(moving), Some(mode)) = (state.modes.get_mut(mode), self.soft.modes().get(mode)) {
+            let q = if q.is_nan() { 0.0 } else { q };
+            *moving = [saturate(q, -mode.limit, mode.limit), 0.0];
+        }
+    }
+
     /// The push of this tick, N, and the motion of the modes under it to the next.
     #[inline(never)]
     fn press(&self, state: &mut SoftContact, wall: &Penalty, touch: &ToolContact) -> f32 {
