@@ -125,6 +125,32 @@ pub extern "C" fn load(length: usize, x: f32, y: f32, z: f32) -> i32 {
     }
 }
 
+/// Gives the loaded body modes, from `count` numbers in the input: 0, or −1 with a message.
+#[unsafe(no_mangle)]
+pub extern "C" fn soften(count: usize) -> i32 {
+    let mut state = STATE.lock();
+    let numbers: Vec<f32> = state.input.iter().take(count).map(|word| f32::from_bits(*word)).collect();
+    let Some(stage) = &mut state.stage else { return state.say("there is no body") };
+    match stage.soften(&numbers) {
+        Ok(()) => 0,
+        Err(error) => state.say(&error),
+    }
+}
+
+/// Of each mode: `q` and its limit, metres, its frequency, Hz, and whether it is held.
+#[unsafe(no_mangle)]
+pub extern "C" fn modes() -> usize {
+    STATE.lock().write(Stage::modes)
+}
+
+/// Holds a mode at some `q`, metres, or with a NaN lets go of it.
+#[unsafe(no_mangle)]
+pub extern "C" fn hold_mode(mode: usize, q: f32) {
+    if let Some(soft) = STATE.lock().stage.as_ref().and_then(Stage::soft) {
+        soft.grasp(mode, q);
+    }
+}
+
 /// Changes what the loop feels like: 0, or −1 and why not.
 #[unsafe(no_mangle)]
 pub extern "C" fn choose(rate: f32, stiffness: f32, damping: f32, friction: f32, law: u32) -> i32 {
@@ -183,7 +209,7 @@ pub extern "C" fn digest() -> u32 {
 #[unsafe(no_mangle)]
 pub extern "C" fn closest(x: f32, y: f32, z: f32) -> usize {
     STATE.lock().write(|stage, out| {
-        let found = stage.loaded.body.locate(vec3(x, y, z));
+        let found = stage.closest(vec3(x, y, z));
         let [u, v] = found.parameters;
         out.extend([f32::from(found.face), u, v]);
         out.extend(found.point.to_array());
@@ -191,16 +217,24 @@ pub extern "C" fn closest(x: f32, y: f32, z: f32) -> usize {
     })
 }
 
+// Faces, edges and sheets are those of the body as it is now.
+
 /// A face as a grid of points and normals, see `mesh.rs`.
 #[unsafe(no_mangle)]
 pub extern "C" fn face(index: u32, steps: u32) -> usize {
-    STATE.lock().write(|stage, out| mesh::face(stage.loaded.body, index, steps, out))
+    STATE.lock().write(|stage, out| {
+        mesh::face(stage.loaded.body, index, steps, out);
+        stage.displace(out, 1);
+    })
 }
 
 /// An edge as points and normals, see `mesh.rs`.
 #[unsafe(no_mangle)]
 pub extern "C" fn edge(index: u32, steps: u32) -> usize {
-    STATE.lock().write(|stage, out| mesh::edge(stage.loaded.body, index, steps, out))
+    STATE.lock().write(|stage, out| {
+        mesh::edge(stage.loaded.body, index, steps, out);
+        stage.displace(out, 2);
+    })
 }
 
 /// The kind of edge: 0 convex, 1 smooth, 2 reflex, 3 mixed, 4 open.
@@ -220,7 +254,10 @@ pub extern "C" fn sheets(code: u32) -> usize {
         1 => Feature::Edge(index),
         _ => Feature::Vertex(index),
     };
-    STATE.lock().write(|stage, out| mesh::sheets(stage.loaded.body, feature, out))
+    STATE.lock().write(|stage, out| {
+        mesh::sheets(stage.loaded.body, feature, out);
+        stage.displace(out, 1);
+    })
 }
 
 /// The way of a method from a start on a face to the closest point of a probe: `u`, `v` and the point of each step.

@@ -1,12 +1,16 @@
-//! The surface that the loop renders: a body, or one patch. Neither adds words to the state.
+//! The surface that the loop renders: a body, one that gives way, or one patch. None adds words to the state.
 
 use alloc::boxed::Box;
 use alloc::string::{String, ToString as _};
 use alloc::vec;
-use palpate::body::{Body, BodyBuffer, BodyWitness, Edge, Effort, Face, Feature, FileHead, TableCursor};
-use palpate::math::Vec3;
+use alloc::vec::Vec;
+use core::sync::atomic::{AtomicU32, Ordering::Relaxed};
+use palpate::body::{Body, BodyBuffer, BodyWitness, Edge, Effort, Face, Feature, FileHead, Soft, TableCursor};
+use palpate::field::{Bump, FieldBounds, MAX_MODES, Modal, Mode, Quadratic};
+use palpate::math::{Vec3, sqrt};
 use palpate::patch::SplinePatch;
-use palpate::servo::{BakedTables, PatchWitness, Surface, Touched, Tracked};
+use palpate::render::Penalty;
+use palpate::servo::{BakedTables, PatchWitness, SoftBody, SoftContact, Surface, ToolContact, Touched, Tracked};
 use palpate::track::{Contact, Controller, Outcome, Probe, Witness};
 
 /// A surface that is chosen when the page runs.
@@ -14,6 +18,8 @@ use palpate::track::{Contact, Controller, Outcome, Probe, Witness};
 pub enum Felt {
     /// All patches, joined.
     Body(Body<'static>),
+    /// The same with modes.
+    Soft(Yielding),
     /// A patch alone.
     Patch(SplinePatch<'static>),
 }
@@ -32,6 +38,8 @@ pub struct FeltWitness {
 pub enum Kept {
     /// On a body.
     Body(BodyWitness),
+    /// On one that gives way.
+    Soft(SoftContact),
     /// On a patch.
     Patch(PatchWitness),
 }
@@ -42,6 +50,7 @@ impl Surface for Felt {
     fn rest(&self) -> FeltWitness {
         let kept = match self {
             Self::Body(body) => Kept::Body(body.rest()),
+            Self::Soft(soft) => Kept::Soft(soft.body.rest()),
             Self::Patch(patch) => Kept::Patch(patch.rest()),
         };
         FeltWitness { kept, spent: 0 }
@@ -57,6 +66,12 @@ impl Surface for Felt {
                 let rejected = step.outcome == Outcome::Rejected;
                 Touched { normal: witness.normal, rejected, unexplained: step.unexplained }
             }
+            (Self::Soft(soft), Kept::Soft(contact)) => {
+                soft.hold(contact);
+                // Its evaluations are not counted here.
+                *spent = 0;
+                soft.body.follow(controller, contact, probe, period)
+            }
             (Self::Patch(patch), Kept::Patch(witness)) => {
                 *spent = 1;
                 patch.follow(controller, witness, probe, period)
@@ -66,9 +81,26 @@ impl Surface for Felt {
         }
     }
 
+    fn is_for(&self, period: f32) -> bool {
+        match self {
+            Self::Soft(soft) => soft.body.is_for(period),
+            Self::Body(_) | Self::Patch(_) => true,
+        }
+    }
+
+    fn push(&self, witness: &mut FeltWitness, wall: &Penalty, touch: Option<ToolContact>) -> f32 {
+        match (self, &mut witness.kept) {
+            (Self::Body(body), Kept::Body(witness)) => body.push(witness, wall, touch),
+            (Self::Soft(soft), Kept::Soft(contact)) => soft.body.push(contact, wall, touch),
+            (Self::Patch(patch), Kept::Patch(witness)) => patch.push(witness, wall, touch),
+            _ => 0.0,
+        }
+    }
+
     fn release(&self, witness: &mut FeltWitness) {
         match (self, &mut witness.kept) {
             (Self::Body(body), Kept::Body(witness)) => body.release(witness),
+            (Self::Soft(soft), Kept::Soft(contact)) => soft.body.release(contact),
             (Self::Patch(patch), Kept::Patch(witness)) => patch.release(witness),
             _ => {}
         }
@@ -77,6 +109,7 @@ impl Surface for Felt {
     fn is_too_deep(&self, witness: &FeltWitness) -> bool {
         match (self, &witness.kept) {
             (Self::Body(body), Kept::Body(witness)) => Surface::is_too_deep(body, witness),
+            (Self::Soft(soft), Kept::Soft(contact)) => soft.body.is_too_deep(contact),
             (Self::Patch(patch), Kept::Patch(witness)) => Surface::is_too_deep(patch, witness),
             _ => false,
         }
@@ -87,6 +120,7 @@ impl BakedTables for Felt {
     fn table_word(&self, cursor: TableCursor) -> Option<u32> {
         match self {
             Self::Body(body) => body.table_word(cursor),
+            Self::Soft(soft) => soft.body.table_word(cursor),
             Self::Patch(patch) => BakedTables::table_word(patch, cursor),
         }
     }
@@ -94,6 +128,7 @@ impl BakedTables for Felt {
     fn table_records(&self) -> u32 {
         match self {
             Self::Body(body) => BakedTables::table_records(body),
+            Self::Soft(soft) => soft.body.table_records(),
             Self::Patch(patch) => BakedTables::table_records(patch),
         }
     }
@@ -101,6 +136,7 @@ impl BakedTables for Felt {
     fn baked_crc(&self) -> Option<u32> {
         match self {
             Self::Body(body) => body.baked_crc(),
+            Self::Soft(soft) => soft.body.baked_crc(),
             Self::Patch(patch) => BakedTables::baked_crc(patch),
         }
     }
@@ -110,6 +146,7 @@ impl Tracked for FeltWitness {
     fn witness(&self) -> &Witness {
         match &self.kept {
             Kept::Body(body) => body.witness(),
+            Kept::Soft(contact) => contact.witness(),
             Kept::Patch(patch) => patch.witness(),
         }
     }
@@ -117,6 +154,7 @@ impl Tracked for FeltWitness {
     fn gap(&self) -> f32 {
         match &self.kept {
             Kept::Body(body) => body.gap(),
+            Kept::Soft(contact) => contact.gap(),
             Kept::Patch(patch) => patch.gap(),
         }
     }
@@ -124,6 +162,7 @@ impl Tracked for FeltWitness {
     fn contact(&self) -> Contact {
         match &self.kept {
             Kept::Body(body) => body.contact(),
+            Kept::Soft(contact) => contact.contact(),
             Kept::Patch(patch) => patch.contact(),
         }
     }
@@ -131,6 +170,7 @@ impl Tracked for FeltWitness {
     fn feature(&self) -> u16 {
         match &self.kept {
             Kept::Body(body) => body.feature(),
+            Kept::Soft(contact) => contact.feature(),
             Kept::Patch(patch) => patch.feature(),
         }
     }
@@ -138,6 +178,7 @@ impl Tracked for FeltWitness {
     fn for_each_word(&self, take: impl FnMut(u32)) {
         match &self.kept {
             Kept::Body(body) => body.for_each_word(take),
+            Kept::Soft(contact) => contact.for_each_word(take),
             Kept::Patch(patch) => patch.for_each_word(take),
         }
     }
@@ -148,8 +189,17 @@ impl FeltWitness {
     pub fn normal(&self, felt: &Felt) -> Vec3 {
         match (&self.kept, felt) {
             (Kept::Body(witness), _) => witness.normal,
+            (Kept::Soft(contact), _) => contact.track().body.normal,
             (Kept::Patch(witness), Felt::Patch(patch)) => witness.witness().normal(patch).unwrap_or(Vec3::ZERO),
             _ => Vec3::ZERO,
+        }
+    }
+
+    /// `q` of each mode at which the surface was tracked, metres; zero of a rigid one.
+    pub fn q(&self) -> [f32; MAX_MODES] {
+        match &self.kept {
+            Kept::Soft(contact) => *contact.track().q(),
+            Kept::Body(_) | Kept::Patch(_) => [0.0; MAX_MODES],
         }
     }
 
@@ -157,7 +207,90 @@ impl FeltWitness {
     pub fn place(&self) -> Feature {
         match &self.kept {
             Kept::Body(witness) => witness.feature,
+            Kept::Soft(contact) => contact.track().body.feature,
             Kept::Patch(_) => Feature::Face(0),
+        }
+    }
+}
+
+// A body that gives way, with modes that a reader may hold.
+
+/// A body with its modes, and where a reader holds them.
+#[derive(Clone, Copy, Debug)]
+pub struct Yielding {
+    /// The surface.
+    pub body: SoftBody<'static>,
+    motion: &'static [Modal],
+    /// Bits of `q`, metres; those of a NaN where the mode moves freely.
+    held: &'static [AtomicU32; MAX_MODES],
+}
+
+/// Numbers of a mode, as `palpate_tool::page` writes them: its field, its bump with a radius of 0 where there is none,
+/// limit, bounds and motion.
+const NUMBERS: usize = 30 + 7 + 1 + 4 + 3;
+
+impl Yielding {
+    /// Modes from their numbers.
+    ///
+    /// # Errors
+    /// The error in the modes, in a sentence.
+    fn of(body: Body<'static>, numbers: &[f32], rate: f32) -> Result<Self, String> {
+        let mut modes = Vec::new();
+        let mut motion = Vec::new();
+        for numbers in numbers.as_chunks::<NUMBERS>().0 {
+            let vectors: Vec<Vec3> =
+                numbers.as_chunks::<3>().0.iter().map(|vector| Vec3::from_array(*vector)).collect();
+            let [constant, x, y, z, xx, xy, xz, yy, yz, zz, direction, at, ..] = vectors[..] else { continue };
+            let [.., radius, limit, moves, stretch, bend, twist, mass_kg, damping_n_s_per_m, stiffness_n_per_m] =
+                *numbers;
+            modes.push(Mode {
+                field: Quadratic { constant, linear: [x, y, z], quadratic: [xx, xy, xz, yy, yz, zz] },
+                bump: (radius > 0.0).then_some(Bump { direction, at, radius }),
+                limit,
+                bounds: FieldBounds { motion: moves, stretch, bend, twist },
+            });
+            motion.push(Modal { mass_kg, damping_n_s_per_m, stiffness_n_per_m });
+        }
+        let soft = Soft::new(body, modes.leak()).map_err(|error| error.to_string())?;
+        let motion: &'static [Modal] = motion.leak();
+        let held = Box::leak(Box::new([const { AtomicU32::new(f32::NAN.to_bits()) }; MAX_MODES]));
+        let body = SoftBody::new(soft, motion, rate).map_err(|error| error.to_string())?;
+        Ok(Self { body, motion, held })
+    }
+
+    /// For a loop of another rate, Hz.
+    fn at_rate(&self, rate: f32) -> Result<Self, String> {
+        let body = SoftBody::new(*self.body.soft(), self.motion, rate).map_err(|error| error.to_string())?;
+        Ok(Self { body, ..*self })
+    }
+
+    /// Holds a mode at some `q`, metres, or with a NaN lets go of it.
+    pub fn grasp(&self, mode: usize, q: f32) {
+        if let Some(held) = self.held.get(mode) {
+            held.store(q.to_bits(), Relaxed);
+        }
+    }
+
+    fn held(&self, mode: usize) -> Option<f32> {
+        let q = f32::from_bits(self.held.get(mode)?.load(Relaxed));
+        (!q.is_nan()).then_some(q)
+    }
+
+    fn hold(&self, contact: &mut SoftContact) {
+        for mode in 0..self.motion.len() {
+            if let Some(q) = self.held(mode) {
+                self.body.put(contact, mode, q);
+            }
+        }
+    }
+
+    /// Of each mode: `q` at which it was tracked and its limit, metres, its frequency, Hz, and whether it is held.
+    pub fn view(&self, witness: &FeltWitness, out: &mut Vec<f32>) {
+        for (index, ((mode, modal), q)) in self.body.soft().modes().iter().zip(self.motion).zip(witness.q()).enumerate()
+        {
+            let frequency = sqrt(modal.stiffness_n_per_m / modal.mass_kg) / core::f32::consts::TAU;
+            let is_held = self.held(index).is_some();
+            out.extend([q, mode.limit, frequency, f32::from(u8::from(is_held))]);
         }
     }
 }
@@ -195,5 +328,28 @@ impl Loaded {
             _ => Felt::Body(*body),
         };
         Ok(Self { body, felt: Box::leak(Box::new(felt)), centre: head.centre })
+    }
+
+    /// The body with modes, from their numbers, for a loop of this rate, Hz.
+    ///
+    /// # Errors
+    /// The error in the modes, in a sentence.
+    pub fn softened(&self, numbers: &[f32], rate: f32) -> Result<Self, String> {
+        // No board's run is compared with it.
+        let felt = Felt::Soft(Yielding::of(self.body.with_effort(Effort::BENCH), numbers, rate)?);
+        Ok(Self { felt: Box::leak(Box::new(felt)), ..*self })
+    }
+
+    /// For a loop of another rate, Hz, for which modes move by other steps.
+    ///
+    /// # Errors
+    /// A mode that is too fast for it.
+    pub fn at_rate(&self, rate: f32) -> Result<Self, String> {
+        match self.felt {
+            Felt::Soft(soft) if !self.felt.is_for(1.0 / rate) => {
+                Ok(Self { felt: Box::leak(Box::new(Felt::Soft(soft.at_rate(rate)?))), ..*self })
+            }
+            _ => Ok(*self),
+        }
     }
 }

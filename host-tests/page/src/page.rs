@@ -1,14 +1,16 @@
 //! The stage: a body, the loop on three slides, and the hand.
 
 use crate::felt::Loaded;
-use crate::felt::{Felt, FeltWitness};
+use crate::felt::{Felt, FeltWitness, Yielding};
 use crate::view;
 use crate::view::Sighted as _;
 use alloc::boxed::Box;
 use alloc::string::{String, ToString as _};
 use alloc::vec::Vec;
+use palpate::body::Located;
 use palpate::device::drive::Feed;
 use palpate::device::{Counts, Device, Encoder, Kinematics, Motor, ProbePose};
+use palpate::field::Displacement as _;
 use palpate::math::{Vec3, vec3};
 use palpate::render::Friction;
 use palpate::servo::{Config, Event, Guard, Input, Rendering, Servo, ServoState, Settings, Unguarded};
@@ -78,9 +80,59 @@ impl Stage {
     /// # Errors
     /// The setting that is refused; then all stays as it was.
     pub fn choose(&mut self, choices: Choices) -> Result<(), String> {
-        self.servo = servo(self.device, self.loaded.felt, &choices)?;
-        self.choices = choices;
+        let loaded = self.loaded.at_rate(choices.rate)?;
+        self.servo = servo(self.device, loaded.felt, &choices)?;
+        (self.loaded, self.choices) = (loaded, choices);
         Ok(())
+    }
+
+    /// The body with modes, from their numbers, where it is loaded.
+    ///
+    /// # Errors
+    /// The error in the modes, in a sentence.
+    pub fn soften(&mut self, numbers: &[f32]) -> Result<(), String> {
+        *self = Self::new(self.loaded.softened(numbers, Choices::DEFAULT.rate)?, self.target)?;
+        Ok(())
+    }
+
+    /// The body that gives way, if it does.
+    pub fn soft(&self) -> Option<&'static Yielding> {
+        match self.loaded.felt {
+            Felt::Soft(soft) => Some(soft),
+            Felt::Body(_) | Felt::Patch(_) => None,
+        }
+    }
+
+    /// Writes of each mode its number, see [`Yielding::view`].
+    pub fn modes(&self, out: &mut Vec<f32>) {
+        if let Some(soft) = self.soft() {
+            soft.view(self.state.witness(), out);
+        }
+    }
+
+    /// The closest point from a standing start, of the body as it is now.
+    pub fn closest(&self, probe: Vec3) -> Located {
+        match self.soft() {
+            Some(soft) => soft.body.soft().locate(probe, &self.state.witness().q()),
+            None => self.loaded.body.locate(probe),
+        }
+    }
+
+    /// Takes points with vectors along the normal there, `vectors` of them after each point, along with the body as it
+    /// is now.
+    pub fn displace(&self, out: &mut [f32], vectors: usize) {
+        let Some(soft) = self.soft() else { return };
+        let field = soft.body.soft().field(&self.state.witness().q());
+        for numbers in out.chunks_exact_mut(3 * (1 + vectors)) {
+            let (at, normals) = numbers.as_chunks_mut::<3>().0.split_at_mut(1);
+            let [at] = at else { return };
+            let rest = Vec3::from_array(*at);
+            *at = (&field).point(rest).to_array();
+            for normal in normals {
+                let turned = (&field).normal(rest, Vec3::from_array(*normal));
+                *normal = turned.normalize().to_array();
+            }
+        }
     }
 
     /// Restarts with the hand at a place, as after power-on.

@@ -3,6 +3,7 @@
 use crate::felt::{Felt, FeltWitness};
 use alloc::vec::Vec;
 use palpate::body::{Body, BodyWitness, Feature};
+use palpate::field::{Displaced, Field};
 use palpate::math::{Vec3, sqrt};
 use palpate::patch::SplinePatch;
 use palpate::scene::Scene;
@@ -16,7 +17,11 @@ pub fn next_step(sight: &Sight<'_>, controller: &Controller, probe: Vec3) -> [f3
     match sight.feature {
         Feature::Face(_) => {
             let Some(patch) = sight.patch else { return [0.0; 2] };
-            let step: Step = controller.step(patch, &mut copy, Probe::at(probe), 1.0 / 4_000.0);
+            let (probe, period) = (Probe::at(probe), 1.0 / 4_000.0);
+            let step: Step = match &sight.field {
+                Some(field) => controller.step(&Displaced::new(patch, field), &mut copy, probe, period),
+                None => controller.step(patch, &mut copy, probe, period),
+            };
             [step.gain, step.residual()]
         }
         Feature::Edge(_) => {
@@ -85,6 +90,8 @@ pub struct Sight<'a> {
     pub spent: u8,
     /// Of the frame.
     pub place: Placement,
+    /// By which the patch is displaced, where it is.
+    pub field: Option<Field<'static>>,
 }
 
 /// A surface that can be looked at.
@@ -99,11 +106,15 @@ pub trait Sighted: Surface + 'static {
 impl Sighted for Felt {
     fn sight<'a>(&'static self, kept: &'a FeltWitness) -> Sight<'a> {
         let (feature, normal, spent) = (kept.place(), kept.normal(self), kept.spent);
-        let patch = match self {
-            Self::Patch(patch) => Some(patch),
-            Self::Body(body) => patch_of(body, feature),
+        let (patch, field) = match self {
+            Self::Patch(patch) => (Some(patch), None),
+            Self::Body(body) => (patch_of(body, feature), None),
+            Self::Soft(soft) => {
+                let soft = soft.body.soft();
+                (patch_of(soft.rest(), feature), Some(soft.field(&kept.q())))
+            }
         };
-        Sight { witness: kept.witness(), feature, patch, normal, spent, place: Placement::IDENTITY }
+        Sight { witness: kept.witness(), feature, patch, normal, spent, place: Placement::IDENTITY, field }
     }
 }
 
@@ -120,6 +131,7 @@ impl<const N: usize> Sighted for Scene<'static, Body<'static>, N> {
             normal: of.map_or(Vec3::ZERO, |witness| witness.normal),
             spent: 0,
             place: part.map_or(Placement::IDENTITY, |part| part.placement()),
+            field: None,
         }
     }
 

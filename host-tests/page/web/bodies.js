@@ -7,15 +7,16 @@ export const given = JSON.parse(document.getElementById("given").textContent);
 const ABSENT = 0xffffffff;
 
 /** A body by the bytes of its file: a device on it, and what its notes call model and faces. */
-export async function read(bytes, name) {
+export async function read(bytes, name, modes) {
   const device = await Device.on(bytes);
+  if (modes) device.soften(modes);
   const notes = notesOf(bytes);
   return { device, bytes, name, title: notes.model || name, units: notes.units, faces: notes.faces };
 }
 
 export const shipped = (name) => {
   const found = given.bodies.find((body) => body.name === name) ?? given.bodies[0];
-  return read(decode(found.palp), found.name);
+  return read(decode(found.palp), found.name, found.modes && decode(found.modes));
 };
 
 const FACE_RECORD = 156;

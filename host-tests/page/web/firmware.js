@@ -49,6 +49,27 @@ export class Device {
     this.exports = exports;
   }
 
+  /** Gives the body modes, from the bytes of their numbers. */
+  soften(bytes) {
+    this.#put(bytes);
+    if (this.exports.soften(bytes.length / 4) < 0) throw new Error(this.#text());
+  }
+
+  /** Of each mode: q and its limit, metres, its frequency, Hz, and whether it is held. */
+  modes() {
+    this.exports.modes();
+    const numbers = this.#numbers();
+    return Array.from({ length: numbers.length / 4 }, (_, mode) => {
+      const [q, limit, frequency, held] = numbers.subarray(4 * mode, 4 * mode + 4);
+      return { q, limit, frequency, held: held > 0 };
+    });
+  }
+
+  /** Holds a mode at some q, metres; without one, lets go of it. */
+  holdMode(mode, q = NaN) {
+    this.exports.hold_mode(mode, q);
+  }
+
   choose({ rate, stiffness, damping, friction, law }) {
     if (this.exports.choose(rate, stiffness, damping, friction, law) < 0) throw new Error(this.#text());
   }

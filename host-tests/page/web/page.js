@@ -9,6 +9,7 @@ import { Loop } from "loop";
 import { Player } from "player";
 import { Errors, show } from "panel";
 import { Basin } from "basin";
+import { Modes } from "modes";
 import { choices, number, pace, say } from "choices";
 import { verify } from "proof";
 
@@ -26,6 +27,7 @@ export class Page {
     this.pointer = new Pointer(this.room, { touched: () => this.loop.taken() });
     this.loop = new Loop(this.room, this.pointer);
     this.player = new Player();
+    this.modes = new Modes();
     const ways = ([ours, newton]) => this.panel === "basin" && this.marks.ways(ours.places, newton.places);
     this.basin = new Basin({ changed: ways });
     this.panel = "feel";
@@ -51,6 +53,7 @@ export class Page {
     this.player.close();
     this.room.show(parts ?? [this.body]);
     this.marks.begin();
+    this.modes.begin(device);
     this.pointer.begin();
     this.choose();
     this.loop.begin(device);
@@ -104,6 +107,9 @@ export class Page {
 
   beginBasin() {
     const { device } = this.body;
+    // It compares methods on the body at rest.
+    this.modes.letGo();
+    device.restart(this.loop.place);
     // Straight out from where the patch is, or where the reader has left the stylus.
     const at = device.isPatch ? over(device) : (this.view?.probe ?? this.loop.place);
     this.basin.begin(device, at);
@@ -148,6 +154,10 @@ export class Page {
     const { kind, index } = featureOf(view.feature),
       isPatch = felt.device.isPatch;
     this.room.put(view.places ?? []);
+    if (this.modes.show()) {
+      this.room.reshape(body.device);
+      marks.begin();
+    }
     this.room.lightUp(part, kind === FACE && !isPatch ? index : null);
     marks.on(part);
     marks.edge(kind === EDGE && !isPatch ? index : null, felt.device);

@@ -99,7 +99,8 @@ export class Room {
   show(bodies) {
     this.scene.remove(...this.bodies);
     this.lines = [];
-    const steps = ({ device: { faces } }) => (faces > 60 ? 12 : faces > 12 ? 24 : 48);
+    // A face that moves is evaluated in each frame.
+    const steps = ({ device }) => (device.faces > 60 ? 12 : device.faces > 12 || device.modes().length ? 24 : 48);
     const grids = bodies.map((body) =>
       Array.from({ length: body.device.faces }, (_, face) => body.device.face(face, steps(body))),
     );
@@ -112,17 +113,55 @@ export class Room {
   }
 
   body({ device }, grids, steps) {
-    const group = new Group();
+    const group = Object.assign(new Group(), { steps });
     group.faces = grids.map((grid) => this.face(grid, steps));
-    group.add(...group.faces);
-    const seams = [],
-      borders = [];
-    for (let edge = 0; edge < device.edges; edge += 1) {
-      (device.isSmooth(edge) ? seams : borders).push(device.edge(edge, 32));
-    }
-    this.line(group, seams, { color: SEAM, linewidth: 1.0, opacity: 0.55 });
-    this.line(group, borders, { color: BORDER, linewidth: 1.9, opacity: 0.9 });
+    const [seams, borders] = this.edges(device);
+    group.seams = this.line(seams, { color: SEAM, linewidth: 1.0, opacity: 0.55 });
+    group.borders = this.line(borders, { color: BORDER, linewidth: 1.9, opacity: 0.9 });
+    group.add(...group.faces, group.seams, group.borders);
     return group;
+  }
+
+  /** Smooth edges and sharp ones, as lines. */
+  edges(device) {
+    const curves = [[], []];
+    for (let edge = 0; edge < device.edges; edge += 1) {
+      const curve = device.edge(edge, 32),
+        line = curves[device.isSmooth(edge) ? 0 : 1];
+      for (let at = 9; at < curve.length; at += 9) {
+        for (const end of [at - 9, at]) line.push(...this.within(curve.subarray(end, end + 3)).toArray());
+      }
+    }
+    return curves.map((points) => (points.length ? new LineSegmentsGeometry().setPositions(points) : null));
+  }
+
+  /** Draws the only body where its modes have moved it. */
+  reshape(device) {
+    const [group] = this.bodies;
+    group.faces.forEach(({ geometry }, face) => {
+      const { position, normal } = geometry.attributes;
+      this.fill(device.face(face, group.steps), position.array, normal.array);
+      position.needsUpdate = normal.needsUpdate = true;
+      geometry.computeBoundingSphere();
+    });
+    const [seams, borders] = this.edges(device);
+    for (const [line, geometry] of [
+      [group.seams, seams],
+      [group.borders, borders],
+    ]) {
+      if (!geometry) continue;
+      line.geometry.dispose();
+      line.geometry = geometry;
+    }
+  }
+
+  /** Points and normals of a face. */
+  fill(grid, position, normal) {
+    const at = new Vector3();
+    for (let vertex = 0; 3 * vertex < position.length; vertex += 1) {
+      this.within(grid.subarray(6 * vertex, 6 * vertex + 3), at).toArray(position, 3 * vertex);
+      normal.set(grid.subarray(6 * vertex + 3, 6 * vertex + 6), 3 * vertex);
+    }
   }
 
   /** Puts each body to its place: its axes and its origin, twelve numbers. */
@@ -173,11 +212,7 @@ export class Room {
       count = columns * columns;
     const position = new Float32Array(3 * count),
       normal = new Float32Array(3 * count);
-    const at = new Vector3();
-    for (let vertex = 0; vertex < count; vertex += 1) {
-      this.within(grid.subarray(6 * vertex, 6 * vertex + 3), at).toArray(position, 3 * vertex);
-      normal.set(grid.subarray(6 * vertex + 3, 6 * vertex + 6), 3 * vertex);
-    }
+    this.fill(grid, position, normal);
     const index = [];
     for (let row = 0; row < steps; row += 1) {
       for (let column = 0; column < steps; column += 1) {
@@ -205,19 +240,11 @@ export class Room {
     return mesh;
   }
 
-  line(group, curves, { color, linewidth, opacity }) {
-    if (!curves.length) return;
-    const positions = [];
-    for (const curve of curves) {
-      const points = [];
-      for (let at = 0; at < curve.length; at += 9) points.push(this.within(curve.subarray(at, at + 3)).toArray());
-      for (let at = 1; at < points.length; at += 1) positions.push(...points[at - 1], ...points[at]);
-    }
+  line(geometry, { color, linewidth, opacity }) {
     const material = new LineMaterial({ color, linewidth, transparent: true, opacity });
     material.resolution.copy(this.resolution);
-    const line = new LineSegments2(new LineSegmentsGeometry().setPositions(positions), material);
     this.lines.push(material);
-    group.add(line);
+    return Object.assign(new LineSegments2(geometry ?? undefined, material), { visible: geometry !== null });
   }
 
   /** Lights a face of a body, or none. */

@@ -12,5 +12,6 @@ mod live;
 mod pictures;
 mod regions;
 mod replay;
+mod soft;
 mod stylus;
 mod tool;

@@ -7,7 +7,7 @@ use crate::models::ModelFile;
 use anyhow::{Context, ensure};
 use glam::DVec3;
 use palpate::body::{Body, Effort, Soft};
-use palpate::field::{Modal, Mode};
+use palpate::field::{FieldBounds, Modal, Mode, Quadratic};
 use palpate::math::Vec3;
 use palpate::patch::{Patch as _, SplinePatch};
 use palpate::scene::Limits;
@@ -89,6 +89,22 @@ impl SoftModes {
     pub fn on(&self, body: &Body<'static>, rate_hz: f32) -> anyhow::Result<&'static SoftBody<'static>> {
         let soft = Soft::new(*body, self.modes)?;
         Ok(Box::leak(Box::new(SoftBody::new(soft, &self.motion, rate_hz)?)))
+    }
+
+    /// Their numbers, as the page reads them.
+    pub fn numbers(&self) -> Vec<f32> {
+        let each = self.modes.iter().zip(&self.motion).flat_map(|(mode, modal)| {
+            let Quadratic { constant, linear, quadratic } = mode.field;
+            let (direction, at, radius) =
+                mode.bump.map_or((Vec3::ZERO, Vec3::ZERO, 0.0), |b| (b.direction, b.at, b.radius));
+            let vectors = [constant].into_iter().chain(linear).chain(quadratic).chain([direction, at]);
+            let FieldBounds { motion, stretch, bend, twist } = mode.bounds;
+            let Modal { mass_kg, damping_n_s_per_m, stiffness_n_per_m } = *modal;
+            let others =
+                [radius, mode.limit, motion, stretch, bend, twist, mass_kg, damping_n_s_per_m, stiffness_n_per_m];
+            vectors.flat_map(|vector| vector.to_array()).chain(others)
+        });
+        each.collect()
     }
 
     /// The source of a body that deforms, from that of the body.

@@ -1,11 +1,13 @@
 //! `palpate page` and `palpate view`: the page for the browser, as a file and on the loopback.
 
 use super::bake;
+use super::felt::SoftModes;
 use super::output::{print, write_whole};
 use crate::firmware::Progress;
-use crate::models::SHIPPED;
+use crate::models::{self, SHIPPED};
 use crate::page::{self, Given, Recording, Shown};
-use anyhow::Context as _;
+use crate::repository;
+use anyhow::{Context as _, ensure};
 use clap::Args;
 use palpate::body::FileHead;
 use std::fs;
@@ -14,6 +16,8 @@ use std::process::ExitCode;
 
 /// The body that is shown first.
 const FIRST: &str = "capped_box";
+/// The body that gives way: its name, its model, its modes.
+const SOFT: [&str; 3] = ["foam_box", "capped_box", "host-tests/soft/capped_box.modes.toml"];
 
 /// Writes the page for the browser: every shipped model, rendered by the firmware's own code, with the mouse as stylus.
 ///
@@ -34,6 +38,9 @@ pub struct ViewArguments {
     /// Model: a file, or the name of a shipped one
     #[arg(required_unless_present = "recording")]
     model: Option<PathBuf>,
+    /// Modes of a model that gives way, from `bake --soft`
+    #[arg(long, value_name = "MODES.toml", requires = "model")]
+    modes: Option<PathBuf>,
     /// Recorded run of `demo` or `sim`, shown with its body
     #[arg(long, value_name = "FILE.json", conflicts_with = "model")]
     recording: Option<PathBuf>,
@@ -65,7 +72,10 @@ pub fn view(arguments: &ViewArguments) -> anyhow::Result<ExitCode> {
     let mut first = FIRST.to_owned();
     if let Some(model) = &arguments.model {
         first = model.file_stem().unwrap_or(model.as_os_str()).to_string_lossy().into_owned();
-        bodies.push(Shown::new(&first, &bake::file_of(model)?));
+        bodies.push(match &arguments.modes {
+            Some(modes) => soft(&first, model, modes)?,
+            None => Shown::new(&first, &bake::file_of(model)?),
+        });
     }
     let recording = arguments.recording.as_deref().map(read).transpose()?;
     bodies.extend(shipped()?.into_iter().filter(|body| body.name != first));
@@ -97,7 +107,15 @@ fn written(given: Given) -> anyhow::Result<String> {
     page::bundle(&given, &firmware)
 }
 
-/// Every model that ships, bodies before patches.
+/// A body that gives way.
+fn soft(name: &str, model: &Path, modes: &Path) -> anyhow::Result<Shown> {
+    let numbers = SoftModes::read(modes, &models::read(model)?)?.numbers();
+    let file = bake::file_of(model)?;
+    ensure!(FileHead::of(&file)?.faces > 1, "{}: --modes applies to bodies, and this is one patch", model.display());
+    Ok(Shown::new(name, &file).with_modes(&numbers))
+}
+
+/// Every model that ships, bodies before patches, and the one that gives way behind the body that it is at rest.
 fn shipped() -> anyhow::Result<Vec<Shown>> {
     let mut bodies = Vec::new();
     for (name, _) in SHIPPED {
@@ -105,7 +123,11 @@ fn shipped() -> anyhow::Result<Vec<Shown>> {
         bodies.push((FileHead::of(&file)?.faces == 1, Shown::new(name, &file)));
     }
     bodies.sort_by_key(|(is_patch, _)| *is_patch);
-    Ok(bodies.into_iter().map(|(_, body)| body).collect())
+    let mut bodies: Vec<Shown> = bodies.into_iter().map(|(_, body)| body).collect();
+    let [name, model, modes] = SOFT;
+    let behind = bodies.iter().position(|body| body.name == model).map_or(bodies.len(), |index| index + 1);
+    bodies.insert(behind, soft(name, Path::new(model), &repository::root()?.join(modes))?);
+    Ok(bodies)
 }
 
 /// The result of the emulated boards' script.

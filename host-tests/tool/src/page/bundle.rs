@@ -3,7 +3,7 @@
 //! Modules of a page that lies in a file cannot import each other by path. Each is a `data:` address under its bare
 //! name in the page's import map; so no bundler is needed, and what the browser runs is what lies in the repository.
 
-use super::recording::Recording;
+use super::recording::{Recording, in_base64};
 use crate::repository;
 use anyhow::{Context as _, ensure};
 use base64::Engine as _;
@@ -36,6 +36,9 @@ pub struct Shown {
     pub title: String,
     /// Its file, in base64.
     pub palp: String,
+    /// The numbers of its modes, in base64; `None` of a rigid body.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub modes: Option<String>,
 }
 
 impl Shown {
@@ -46,7 +49,13 @@ impl Shown {
 
     /// The same, from its file in base64.
     pub fn encoded(name: &str, palp: String) -> Self {
-        Self { name: name.to_owned(), title: name.replace('_', " "), palp }
+        Self { name: name.to_owned(), title: name.replace('_', " "), palp, modes: None }
+    }
+
+    /// The same body with modes of these numbers.
+    #[must_use]
+    pub fn with_modes(self, numbers: &[f32]) -> Self {
+        Self { modes: Some(in_base64(numbers)), ..self }
     }
 }
 

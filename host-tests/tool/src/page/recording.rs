@@ -141,7 +141,7 @@ impl Recording {
 }
 
 /// Numbers with all their bits, which decimals in JSON have only where they are finite.
-fn in_base64(numbers: &[f32]) -> String {
+pub(super) fn in_base64(numbers: &[f32]) -> String {
     STANDARD.encode(numbers.iter().flat_map(|number| number.to_le_bytes()).collect::<Vec<u8>>())
 }
 
