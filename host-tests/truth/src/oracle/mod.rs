@@ -163,6 +163,8 @@ pub struct Oracle<'a> {
     patch: &'a NurbsPatch,
     parameters: [Vec<f64>; 2],
     points: Vec<DVec3>,
+    /// The longest diagonal of a cell of the grid, metres.
+    cell: f64,
 }
 
 const INTERVALS_PER_SPAN: usize = 12;
@@ -184,15 +186,23 @@ impl<'a> Oracle<'a> {
         });
         let row =
             |u: &f64| parameters[1].iter().map(|v| OraclePoint::evaluate(patch, *u, *v).point).collect::<Vec<_>>();
-        let points = parameters[0].iter().flat_map(row).collect();
-        Self { patch, parameters, points }
+        let points: Vec<_> = parameters[0].iter().flat_map(row).collect();
+        let rows: Vec<_> = points.chunks(parameters[1].len()).collect();
+        let diagonals = rows.windows(2).flat_map(|pair| {
+            let falling = pair[0].iter().zip(&pair[1][1..]);
+            let rising = pair[0][1..].iter().zip(pair[1]);
+            falling.chain(rising).map(|(one, other)| one.distance(*other))
+        });
+        let cell = diagonals.fold(0.0, f64::max);
+        Self { patch, parameters, points, cell }
     }
 
     /// The point of the patch closest to `query`, metres.
     pub fn closest(&self, query: DVec3) -> ClosestPoint {
         let [along_u, along_v] = &self.parameters;
         let (rows, columns) = (along_u.len(), along_v.len());
-        let distance = |row: usize, column: usize| self.points[row * columns + column].distance_squared(query);
+        let squares: Vec<f64> = self.points.iter().map(|point| point.distance_squared(query)).collect();
+        let distance = |row: usize, column: usize| squares[row * columns + column];
         let around = |at: usize, count: usize| at.saturating_sub(1)..(at + 2).min(count);
         let is_end = |at: usize, count: usize| at == 0 || at + 1 == count;
         // Of the grid, or of one of its sides: near a corner there are minima on both within one interval.
@@ -202,20 +212,23 @@ impl<'a> Oracle<'a> {
             let along_v = around(column, columns).all(|c| here <= distance(row, c));
             (is_end(column, columns) && along_u)
                 || (is_end(row, rows) && along_v)
-                || around(row, rows).all(|r| around(column, columns).all(|c| here <= distance(r, c)))
+                || along_u
+                    && along_v
+                    && around(row, rows).all(|r| around(column, columns).all(|c| here <= distance(r, c)))
         };
-        let mut best: Option<ClosestPoint> = None;
-        for (row, &u) in along_u.iter().enumerate() {
-            for (column, &v) in along_v.iter().enumerate() {
-                if is_local_minimum(row, column) {
-                    let found = self.newton([u, v], query);
-                    if best.is_none_or(|best| found.distance < best.distance) {
-                        best = Some(found);
-                    }
-                }
+        let all = (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column)));
+        let mut starts: Vec<_> = all.filter(|(row, column)| is_local_minimum(*row, *column)).collect();
+        starts.sort_by(|a, b| distance(a.0, a.1).total_cmp(&distance(b.0, b.1)));
+        let [nearest, others @ ..] = &starts[..] else { unreachable!("the grid has a least distance") };
+        let found = |(row, column): (usize, usize)| self.newton([along_u[row], along_v[column]], query);
+        others.iter().fold(found(*nearest), |best, start| {
+            // A minimum lies within two cells of the grid's, so that what is farther away cannot be the nearest.
+            if distance(start.0, start.1).sqrt() > best.distance + 2.0 * self.cell {
+                return best;
             }
-        }
-        best.unwrap_or_else(|| unreachable!("the minimum of the grid is a local minimum of the grid"))
+            let found = found(*start);
+            if found.distance < best.distance { found } else { best }
+        })
     }
 
     /// Newton on ½‖f − Q‖² over the unit square: parameters that press against their border are held, the others take
@@ -230,6 +243,15 @@ impl<'a> Oracle<'a> {
             let held = [0, 1].map(|i| (at[i] <= 0.0 && gradient[i] > 0.0) || (at[i] >= 1.0 && gradient[i] < 0.0));
             let Some(direction) = descent(&surface, difference, gradient, held) else { break };
             let value = difference.length_squared();
+            // No double shows a shorter distance: the whole step, which has the digits of the parameters.
+            if (gradient[0] * direction[0] + gradient[1] * direction[1]).abs() < f64::EPSILON * value {
+                let candidate = [0, 1].map(|i| (at[i] + direction[i]).clamp(0.0, 1.0));
+                let moved = OraclePoint::evaluate(self.patch, candidate[0], candidate[1]);
+                if moved.point.distance_squared(query) <= value * (1.0 + 4.0 * f64::EPSILON) {
+                    (at, surface) = (candidate, moved);
+                }
+                break;
+            }
             let mut scale = 1.0;
             let next = loop {
                 let candidate = [0, 1].map(|i| (at[i] + scale * direction[i]).clamp(0.0, 1.0));
