@@ -19,7 +19,7 @@ pub enum Felt {
     /// All patches, joined.
     Body(Body<'static>),
     /// The same with modes.
-    Soft(Yielding),
+    Soft(&'static Yielding),
     /// A patch alone.
     Patch(SplinePatch<'static>),
 }
@@ -336,8 +336,11 @@ impl Loaded {
     /// The error in the modes, in a sentence.
     pub fn softened(&self, numbers: &[f32], rate: f32) -> Result<Self, String> {
         // No board's run is compared with it.
-        let felt = Felt::Soft(Yielding::of(self.body.with_effort(Effort::BENCH), numbers, rate)?);
-        Ok(Self { felt: Box::leak(Box::new(felt)), ..*self })
+        Ok(self.yielding(Yielding::of(self.body.with_effort(Effort::BENCH), numbers, rate)?))
+    }
+
+    fn yielding(&self, soft: Yielding) -> Self {
+        Self { felt: Box::leak(Box::new(Felt::Soft(Box::leak(Box::new(soft))))), ..*self }
     }
 
     /// For a loop of another rate, Hz, for which modes move by other steps.
@@ -346,9 +349,7 @@ impl Loaded {
     /// A mode that is too fast for it.
     pub fn at_rate(&self, rate: f32) -> Result<Self, String> {
         match self.felt {
-            Felt::Soft(soft) if !self.felt.is_for(1.0 / rate) => {
-                Ok(Self { felt: Box::leak(Box::new(Felt::Soft(soft.at_rate(rate)?))), ..*self })
-            }
+            Felt::Soft(soft) if !soft.body.is_for(1.0 / rate) => Ok(self.yielding(soft.at_rate(rate)?)),
             _ => Ok(*self),
         }
     }
