@@ -64,6 +64,33 @@ pub fn sqrt_from_above(x: f32) -> f32 {
     f32::from_bits((x.to_bits() >> 1) + 0x1fc0_0001)
 }
 
+/// The root of a positive number, by Newton's method from above, to 2 units in the last place; at compile time.
+pub(crate) const fn square_root(x: f32) -> f32 {
+    let mut root = f32::from_bits((x.to_bits() >> 1) + 0x1fc0_0001);
+    let mut round = 0;
+    while round < 3 {
+        root = 0.5 * (root + x / root);
+        round += 1;
+    }
+    root
+}
+
+/// The cube root of a positive number, 0 of 0, by Newton's method from above, to 2 units in the last place; at compile
+/// time.
+pub(crate) const fn cube_root(x: f32) -> f32 {
+    if !(x > 0.0 && x < f32::INFINITY) {
+        return x;
+    }
+    // A third of the logarithm, and a tenth more than the most that it falls short by.
+    let mut root = 1.1 * f32::from_bits(x.to_bits() / 3 + 0x2a51_4000);
+    let mut round = 0;
+    while round < 4 {
+        root -= (root - x / (root * root)) / 3.0;
+        round += 1;
+    }
+    root
+}
+
 /// `x` saturated to `[low, high]`; NaN becomes `low`. Plain comparisons: `f32::max` leaves the sign of zero open, and
 /// with it the last bit that host and target must share; `f32::clamp` panics if `low > high`.
 #[inline]

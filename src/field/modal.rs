@@ -1,5 +1,7 @@
 //! How a mode moves: a damped oscillator, solved exactly over a tick in which its force is constant (theory §15).
 
+use crate::math::square_root;
+
 /// A mode as an oscillator, in terms of its most moved point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Modal {
@@ -194,17 +196,6 @@ const fn exp_less_one(x: f32) -> f32 {
         halvings -= 1;
     }
     sum
-}
-
-/// The root of a positive number, by Newton's method from above; at compile time.
-const fn square_root(x: f32) -> f32 {
-    let mut root = f32::from_bits((x.to_bits() >> 1) + 0x1fc0_0001);
-    let mut round = 0;
-    while round < 3 {
-        root = 0.5 * (root + x / root);
-        round += 1;
-    }
-    root
 }
 
 const fn product(a: &[[f32; 2]; 2], b: &[[f32; 2]; 2]) -> [[f32; 2]; 2] {

@@ -1,6 +1,6 @@
 //! From the witness point to a force.
 //!
-//! [`crate::track::Contact`] is the state of contact. [`Penalty`] gives the push, [`Friction`] the force along the
+//! [`crate::track::Contact`] is the state of contact. [`Penalty`] gives the push, or [`Hertz`] that of a dent, [`Friction`] the force along the
 //! surface, [`Texture`] a ripple on top; [`Coupling`] puts a virtual tool between probe and surface. [`Ease`] prevents
 //! clicks. Then the force passes the limits of [`limit`] and, if configured, [`Passivity`]. [`bounds`] computes the
 //! stable stiffness of a device; [`Feel`] is the feel of a dial, with [`Detents`] that click.
@@ -10,6 +10,7 @@ mod coupling;
 mod ease;
 mod feel;
 mod friction;
+mod hertz;
 mod knob;
 pub mod limit;
 mod material;
@@ -23,6 +24,7 @@ pub use ease::{Ease, Eased, Reason};
 pub(crate) use feel::wound;
 pub use feel::{DialFriction, Ends, Feel, FeelError, FeelPart, Notch, Spring, Wave};
 pub use friction::{Anchor, Friction};
+pub use hertz::Hertz;
 pub use knob::{Detents, DetentsError};
 pub use material::Material;
 pub use passivity::{Energy, Moved, Passivity};

@@ -9,7 +9,8 @@ use crate::math::{Vec3, inverse_sqrt, vec3};
 use crate::patch::{Patch, SplinePatch};
 use crate::render::{Feel, FeelPart, Friction};
 use crate::servo::{
-    DialState, Guard, Knob, KnobError, KnobWitness, OnePatch, Servo, ServoState, SoftBody, SoftContact, Surface,
+    DialState, Guard, Hertzian, Knob, KnobError, KnobWitness, OnePatch, Servo, ServoState, SoftBody, SoftContact,
+    Surface,
 };
 use crate::track::Placement;
 use thiserror::Error;
@@ -282,6 +283,13 @@ impl Commanded for SoftBody<'_> {
 }
 
 impl Commanded for SplinePatch<'_> {}
+
+impl<S: Commanded> Commanded for Hertzian<'_, S> {
+    fn apply(&self, witness: &mut S::Witness, command: &Command) -> Result<(), SceneError> {
+        self.surface().apply(witness, command)
+    }
+}
+
 impl<P: Patch> Commanded for OnePatch<P> {}
 
 /// A knob takes [`Command::Choose`] of an entry that it has, and [`Command::Feel`].

@@ -311,24 +311,21 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
             max_force_n: self.limits.max_force_n,
         };
         if part.contact == Contact::Touching && !part.unexplained {
-            let mut carrier = Carrier::FIXED;
+            let (gap_m, normal, velocity) = (part.gap, part.normal, part.velocity);
+            let mut touch = ToolContact { gap_m, normal, velocity, carrier: Carrier::FIXED, period_s: period };
+            if !S::HAS_OWN_PUSH {
+                push = penalty.push(part.gap, part.velocity.dot(part.normal));
+            }
             if let Motion::Free(body) = motion {
                 let (at, normal) = (part.frame.point_to_scene(point), part.frame.to_scene(part.normal));
-                carrier.mobility_per_kg = body.mobility(&part.moving, &part.frame, at, normal);
-                carrier.outward_m_per_s = part.frame.velocity_at(at).dot(normal);
+                touch.carrier.mobility_per_kg = body.mobility(&part.moving, &part.frame, at, normal);
+                touch.carrier.outward_m_per_s = part.frame.velocity_at(at).dot(normal);
+                if !S::HAS_OWN_PUSH {
+                    push = touch.carried(push, &penalty);
+                }
             }
             if S::HAS_OWN_PUSH {
-                let touch = ToolContact { gap_m: part.gap, normal: part.normal, velocity: part.velocity, carrier };
                 push = surface.push(&mut part.witness, &penalty, Some(touch));
-            } else {
-                push = penalty.push(part.gap, part.velocity.dot(part.normal));
-                if let Motion::Free(_) = motion {
-                    // The spring's force with the body in the middle of the tick, not at its start.
-                    let half = 0.5 * period;
-                    let yielding = 1.0 + half * carrier.mobility_per_kg * (part.stiffness * half + part.damping);
-                    let towards = carrier.outward_m_per_s;
-                    push = saturate((push + part.stiffness * half * towards) / yielding, 0.0, self.limits.max_force_n);
-                }
             }
         } else if S::HAS_OWN_PUSH {
             surface.push(&mut part.witness, &penalty, None);

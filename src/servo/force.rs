@@ -66,8 +66,13 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
             Some(eased) if state.contact() == Contact::Touching => eased.wall(&self.core.penalty, state.gap()),
             _ => self.core.penalty,
         };
-        let touch = ToolContact { gap_m: state.gap(), normal, velocity: tool.velocity, carrier: Carrier::FIXED };
-        let touch = (state.contact() == Contact::Touching).then_some(touch);
+        let touch = (state.contact() == Contact::Touching).then(|| ToolContact {
+            gap_m: state.gap(),
+            normal,
+            velocity: tool.velocity,
+            carrier: Carrier::FIXED,
+            period_s: self.core.period,
+        });
         let push = self.core.surface.push(&mut state.contact.witness, &wall, touch);
         let witness = *state.contact.witness.witness();
         let surface = &witness.surface;

@@ -44,6 +44,7 @@ use crate::track::{Contact, Controller, Outcome, Probe, Witness};
 ///         normal: touched.normal,
 ///         velocity: Vec3::ZERO,
 ///         carrier: Carrier::FIXED,
+///         period_s: 2.5e-4,
 ///     };
 ///     push = soft.push(&mut state, &wall, (state.contact() == Contact::Touching).then_some(touch));
 /// }
@@ -117,7 +118,7 @@ impl<'a> SoftBody<'a> {
     /// The push of this tick, N, and the motion of the modes under it to the next.
     #[inline(never)]
     fn press(&self, state: &mut SoftContact, wall: &Penalty, touch: &ToolContact) -> f32 {
-        let ToolContact { gap_m, normal, velocity, carrier } = *touch;
+        let ToolContact { gap_m, normal, velocity, carrier, .. } = *touch;
         let at = self.soft.material_point(&state.track);
         let mut along = [0.0; MAX_MODES];
         for (along, mode) in along.iter_mut().zip(self.soft.modes()) {

@@ -2,7 +2,7 @@
 
 use crate::body::{Body, BodyWitness, Feature, TableCursor};
 use crate::field::Rigid;
-use crate::math::Vec3;
+use crate::math::{Vec3, saturate};
 use crate::patch::{Patch, SplinePatch, crc32, crc32_of, crc32_with};
 use crate::render::Penalty;
 use crate::track::{Contact, Controller, Outcome, Probe, Witness};
@@ -135,6 +135,20 @@ pub struct ToolContact {
     pub velocity: Vec3,
     /// The body's own motion, where the push moves all of it.
     pub carrier: Carrier,
+    /// Length of a tick, s.
+    pub period_s: f32,
+}
+
+impl ToolContact {
+    /// The push of a wall, N, whose body moves as a whole under it: the spring's force with the body in the middle of the
+    /// tick, not at its start.
+    #[inline]
+    pub fn carried(&self, push: f32, wall: &Penalty) -> f32 {
+        let (Carrier { outward_m_per_s: towards, mobility_per_kg: mobility }, half) =
+            (self.carrier, 0.5 * self.period_s);
+        let yielding = 1.0 + half * mobility * (wall.stiffness_n_per_m * half + wall.damping_n_s_per_m);
+        saturate((push + wall.stiffness_n_per_m * half * towards) / yielding, 0.0, wall.max_force_n)
+    }
 }
 
 /// The motion of a free body at a point of its surface, along the outward normal.

@@ -55,7 +55,13 @@ impl Hit<'_> {
         let SoftWall { body, period, at, outward } = *self.wall;
         let (position, velocity) = (at + outward * height, outward * rate);
         let touched = body.follow(&Controller::SecondOrder, &mut self.state, Probe { position, velocity }, period);
-        let touch = ToolContact { gap_m: self.state.gap(), normal: touched.normal, velocity, carrier: Carrier::FIXED };
+        let touch = ToolContact {
+            gap_m: self.state.gap(),
+            normal: touched.normal,
+            velocity,
+            carrier: Carrier::FIXED,
+            period_s: period,
+        };
         let touch = (self.state.contact() == Contact::Touching).then_some(touch);
         body.push(&mut self.state, penalty, touch)
     }

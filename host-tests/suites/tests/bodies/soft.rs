@@ -369,7 +369,7 @@ fn spring(depth: f64) -> f64 {
 /// The push of a tick on a body that nothing moves.
 fn pushed(surface: &SoftBody<'_>, contact: &mut SoftContact, wall: &Penalty, touched: Touched, probe: Probe) -> f32 {
     let (normal, velocity, carrier) = (touched.normal, probe.velocity, Carrier::FIXED);
-    let touch = ToolContact { gap_m: contact.gap(), normal, velocity, carrier };
+    let touch = ToolContact { gap_m: contact.gap(), normal, velocity, carrier, period_s: PERIOD };
     surface.push(contact, wall, (contact.contact() == Contact::Touching).then_some(touch))
 }
 

@@ -1,0 +1,92 @@
+//! A surface that dents where it is touched: the loop's spring is that of Hertz's contact.
+
+use super::surface::{BakedTables, Surface, ToolContact, Touched};
+use crate::body::TableCursor;
+use crate::render::{Hertz, Penalty};
+use crate::track::{Controller, Probe};
+
+/// A surface with local compliance. Its stiffness is at most the loop's, or that of its [`crate::scene::Material`]: set
+/// it to [`Hertz::steepest_n_per_m`] of the maximum force. Beyond, the force goes on straight.
+///
+/// ```
+/// use palpate::patch::SplinePatch;
+/// use palpate::render::Hertz;
+/// use palpate::servo::{Hertzian, Surface};
+///
+/// const FOAM: Hertz = Hertz::new(5e4, 0.008);
+/// fn dented<'a>(patch: &'a SplinePatch<'a>) -> impl Surface + 'a {
+///     Hertzian::new(patch, FOAM)
+/// }
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Hertzian<'a, S> {
+    surface: &'a S,
+    contact: Hertz,
+}
+
+impl<'a, S> Hertzian<'a, S> {
+    /// A surface and its contact with the tool.
+    pub const fn new(surface: &'a S, contact: Hertz) -> Self {
+        Self { surface, contact }
+    }
+
+    /// The surface without its dent.
+    pub const fn surface(&self) -> &'a S {
+        self.surface
+    }
+}
+
+impl<S: Surface> Surface for Hertzian<'_, S> {
+    type Witness = S::Witness;
+
+    const HAS_OWN_PUSH: bool = true;
+
+    fn rest(&self) -> S::Witness {
+        self.surface.rest()
+    }
+
+    #[inline]
+    fn is_for(&self, period: f32) -> bool {
+        self.surface.is_for(period)
+    }
+
+    #[inline]
+    fn follow(&self, controller: &Controller, witness: &mut S::Witness, probe: Probe, period: f32) -> Touched {
+        self.surface.follow(controller, witness, probe, period)
+    }
+
+    /// That of a wall which has the contact's force and stiffness at this depth, so that modes and a free body yield to
+    /// it as to a wall.
+    fn push(&self, witness: &mut S::Witness, wall: &Penalty, touch: Option<ToolContact>) -> f32 {
+        let depth = touch.map_or(0.0, |touch| -touch.gap_m);
+        let [force, stiffness_n_per_m] = self.contact.at(depth, wall.stiffness_n_per_m);
+        let Some(touch) = touch.filter(|_| force > 0.0) else { return self.surface.push(witness, wall, None) };
+        let wall = Penalty { stiffness_n_per_m, ..*wall };
+        let touch = ToolContact { gap_m: -force / stiffness_n_per_m, ..touch };
+        let push = self.surface.push(witness, &wall, Some(touch));
+        if !S::HAS_OWN_PUSH && touch.carrier.mobility_per_kg > 0.0 { touch.carried(push, &wall) } else { push }
+    }
+
+    fn release(&self, witness: &mut S::Witness) {
+        self.surface.release(witness);
+    }
+
+    #[inline]
+    fn is_too_deep(&self, witness: &S::Witness) -> bool {
+        self.surface.is_too_deep(witness)
+    }
+}
+
+impl<S: BakedTables> BakedTables for Hertzian<'_, S> {
+    fn table_word(&self, cursor: TableCursor) -> Option<u32> {
+        self.surface.table_word(cursor)
+    }
+
+    fn table_records(&self) -> u32 {
+        self.surface.table_records()
+    }
+
+    fn baked_crc(&self) -> Option<u32> {
+        self.surface.baked_crc()
+    }
+}
