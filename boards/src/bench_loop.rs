@@ -15,7 +15,7 @@ use palpate::servo::{
     Deadline, Event, FrameBridge, Guard, Input, Output, PeriodWindow, ResetReason, Servo, ServoState, Surface,
 };
 use palpate::wire::telemetry::{Producer, Recorder};
-use palpate::wire::{Answer, DIALS_HZ, Dial, Record, Refused, View, hold};
+use palpate::wire::{Answer, DIALS_HZ, Dial, MODES_HZ, Modes, Record, Refused, View, hold};
 
 /// Where the loop finds its servo.
 ///
@@ -74,6 +74,8 @@ pub struct Bench<'a, F: Felt<JOINTS>, B, const JOINTS: usize> {
     ticks: u32,
     /// Ticks until a knob tells of its dial.
     dial_in: u32,
+    /// The same of the modes.
+    modes_in: u32,
     acknowledging: Acknowledging,
     confirming: Confirming,
     /// Takes the servo's place once the host asks for it; `None` where jogging is not offered.
@@ -112,6 +114,7 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
             rate: rate as u32,
             ticks: 0,
             dial_in: 0,
+            modes_in: 0,
             acknowledging: Acknowledging::new(rate),
             confirming: Confirming::new(rate),
             began: None,
@@ -444,6 +447,18 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
         }
     }
 
+    /// A device with a surface that deforms tells of its modes.
+    #[inline]
+    fn tell_modes(&mut self) {
+        if let Some(modes) = Modes::new(&self.state) {
+            self.modes_in = self.modes_in.saturating_sub(1);
+            if self.modes_in == 0 {
+                self.modes_in = self.rate / MODES_HZ;
+                self.mailbox.tell_modes(&modes);
+            }
+        }
+    }
+
     /// Telemetry, light and heartbeat.
     #[inline]
     fn tell(&mut self, began: u32, verdict: Verdict) {
@@ -458,6 +473,7 @@ impl<'a, F: Felt<JOINTS>, B: Board<JOINTS>, const JOINTS: usize> Bench<'a, F, B,
             self.mailbox.tell_view(&View::new(&self.state, velocity, holds));
         }
         self.tell_dial();
+        self.tell_modes();
         self.recorder.set_board(self.bridge.total(), holds);
         let gains = self.felt.wiring().joints(self.board.gains());
         self.recorder.set_sensors(self.bridge.rate().per_10_000(), &gains);

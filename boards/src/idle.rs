@@ -301,6 +301,9 @@ impl<'a> Idle<'a> {
         if let Some(dial) = self.mailbox.take_dial().filter(|_| self.is_greeted) {
             return Some(DeviceMessage::Dial(Dial { kept: self.feels.kept() as u8, ..dial }));
         }
+        if let Some(modes) = self.mailbox.take_modes().filter(|_| self.is_greeted) {
+            return Some(DeviceMessage::Modes(modes));
+        }
         let view = self.mailbox.take_view();
         if self.is_greeted {
             self.mailbox.look();

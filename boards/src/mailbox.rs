@@ -6,7 +6,7 @@ use core::sync::atomic::{AtomicU32, Ordering};
 use palpate::commission::Jog;
 use palpate::render::Feel;
 use palpate::scene::Command;
-use palpate::wire::{Answer, Dial, Marked, Reading, View};
+use palpate::wire::{Answer, Dial, Marked, Modes, Reading, View};
 
 /// A `static` of the board: the ticks done, for the watchdog; the commands that came; what a device that is being set
 /// up reads.
@@ -25,6 +25,8 @@ pub struct Mailbox {
     view: Letter<14>,
     /// The longest takes 33 bytes.
     dial: Letter<9>,
+    /// The longest takes 38 bytes.
+    modes: Letter<10>,
     /// The feel that a host has set: the longest takes 127 bytes.
     feel: Letter<32>,
     /// Whether a view is asked for.
@@ -60,6 +62,7 @@ impl Mailbox {
             answer: Letter::new(),
             view: Letter::new(),
             dial: Letter::new(),
+            modes: Letter::new(),
             feel: Letter::new(),
             looks: AtomicU32::new(0),
             writing: Writing::new(),
@@ -124,6 +127,14 @@ impl Mailbox {
 
     pub(crate) fn take_view(&self) -> Option<View> {
         self.view.take_message()
+    }
+
+    pub(crate) fn tell_modes(&self, modes: &Modes) {
+        self.modes.put_message(modes);
+    }
+
+    pub(crate) fn take_modes(&self) -> Option<Modes> {
+        self.modes.take_message()
     }
 
     pub(crate) fn tell_dial(&self, dial: &Dial) {

@@ -2,6 +2,7 @@
 
 use super::host_force::HostForce;
 use super::part::PartState;
+use crate::field::MAX_MODES;
 use crate::math::Vec3;
 use crate::servo::Tracked;
 use crate::track::{Contact, Witness};
@@ -110,6 +111,11 @@ impl<W: Tracked, const N: usize> Tracked for SceneState<W, N> {
 
     fn body(&self) -> u8 {
         self.felt
+    }
+
+    /// Of the foremost body.
+    fn modes(&self) -> Option<[f32; MAX_MODES]> {
+        self.primary().witness.modes()
     }
 
     fn for_each_word(&self, mut take: impl FnMut(u32)) {

@@ -294,6 +294,10 @@ impl Tracked for SoftContact {
         self.track.body.feature.code()
     }
 
+    fn modes(&self) -> Option<[f32; MAX_MODES]> {
+        Some(self.q())
+    }
+
     fn for_each_word(&self, mut take: impl FnMut(u32)) {
         self.track.body.for_each_word(&mut take);
         for number in self.modes.as_flattened() {

@@ -1,7 +1,7 @@
 //! The surfaces that the loop can track: a patch, a body, or one of your own.
 
 use crate::body::{Body, BodyWitness, Feature, TableCursor};
-use crate::field::Rigid;
+use crate::field::{MAX_MODES, Rigid};
 use crate::math::{Vec3, saturate};
 use crate::patch::{Patch, SplinePatch, crc32, crc32_of, crc32_with};
 use crate::render::Penalty;
@@ -207,6 +207,12 @@ pub trait Tracked: Copy + Debug + PartialEq {
     /// The index of the body in contact, of several.
     fn body(&self) -> u8 {
         0
+    }
+
+    /// `q` of each mode, metres, of a body that deforms; modes that it has not are 0.
+    #[inline]
+    fn modes(&self) -> Option<[f32; MAX_MODES]> {
+        None
     }
 
     /// A force of the surface's own on the probe, N, which needs no contact: that of a dial's detents. The loop treats it

@@ -3,6 +3,7 @@
 use super::message::{Reading, Record};
 use super::upload::UploadError;
 use crate::commission::CalibrationError;
+use crate::field::MAX_MODES;
 use crate::math::Vec3;
 use crate::scene::SceneError;
 use crate::servo::{Remembered, ServoState, Tracked};
@@ -32,6 +33,32 @@ pub enum DeviceMessage {
     Marked(Marked),
     /// From a knob, to a host that has sent a hello, [`DIALS_HZ`] times a second.
     Dial(Dial),
+    /// From a device whose surface deforms, to a host that has sent a hello, [`MODES_HZ`] times a second.
+    Modes(Modes),
+}
+
+/// How often a device tells of the modes of a body that deforms, Hz.
+pub const MODES_HZ: u32 = 100;
+
+/// The modes of the foremost body, if it deforms.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Modes {
+    /// The tick.
+    pub tick: u32,
+    /// The body, by its index in the scene.
+    pub body: u8,
+    /// `q` of each mode, metres; of those that it has not, 0.
+    pub q: [f32; MAX_MODES],
+}
+
+impl Modes {
+    /// Of the loop after a tick; none of a rigid surface.
+    #[inline]
+    pub fn new<const JOINTS: usize, W: Tracked, G: Remembered>(state: &ServoState<JOINTS, W, G>) -> Option<Self> {
+        let q = state.witness().modes()?;
+        Some(Self { tick: state.ticks().wrapping_sub(1), body: state.witness().body(), q })
+    }
 }
 
 /// How often a knob tells of its dial, Hz.

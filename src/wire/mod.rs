@@ -21,7 +21,8 @@ mod report;
 pub mod telemetry;
 mod upload;
 pub use dialogue::{
-    Answer, Calibrated, DIALS_HZ, DeviceMessage, Dial, Hello, KeepError, KeptFeel, Marked, PROTOCOL, Refused, View,
+    Answer, Calibrated, DIALS_HZ, DeviceMessage, Dial, Hello, KeepError, KeptFeel, MODES_HZ, Marked, Modes, PROTOCOL,
+    Refused, View,
 };
 pub use message::{HostMessage, Reading, Record, Report, Sensors, hold};
 pub use upload::{CHUNK, Upload, UploadError};

@@ -2,7 +2,9 @@
 
 use crate::{Error, Line, Port};
 use palpate::wire::frame::{self, DELIMITER, MAX_FRAME, Received, Receiver};
-use palpate::wire::{Answer, Calibrated, DeviceMessage, Dial, Hello, HostMessage, PROTOCOL, Reading, Record, View};
+use palpate::wire::{
+    Answer, Calibrated, DeviceMessage, Dial, Hello, HostMessage, Modes, PROTOCOL, Reading, Record, View,
+};
 use std::time::{Duration, Instant};
 
 /// The device hears from this program at least so often while a call runs, and at each call that comes later than this
@@ -34,6 +36,7 @@ pub struct Device<L = Port> {
     pub(crate) view: Option<(View, Instant)>,
     pub(crate) views: u64,
     pub(crate) dial: Option<(Dial, Instant)>,
+    pub(crate) modes: Option<(Modes, Instant)>,
     pub(crate) dials: u64,
     pub(crate) record: Option<Record>,
     /// Of a device that is being set up.
@@ -78,6 +81,7 @@ impl<L: Line> Device<L> {
             view: None,
             views: 0,
             dial: None,
+            modes: None,
             dials: 0,
             record: None,
             reading: None,
@@ -100,7 +104,7 @@ impl<L: Line> Device<L> {
     /// A line that broke, a device that is silent or not understood, or one of another version.
     pub fn greet(&mut self) -> Result<Hello, Error> {
         (self.heard, self.view, self.answer, self.record) = (None, None, None, None);
-        self.dial = None;
+        (self.dial, self.modes) = (None, None);
         let (began, bytes, frames) = (self.line.now(), self.bytes, self.frames);
         // What was cut off before ends here.
         self.send_bytes(&[DELIMITER])?;
@@ -251,6 +255,7 @@ impl<L: Line> Device<L> {
                 self.dial = Some((dial, self.line.now()));
                 self.dials += 1;
             }
+            DeviceMessage::Modes(modes) => self.modes = Some((modes, self.line.now())),
             // Of a device that is being set up: `palpate commission` reads them.
             DeviceMessage::Marked(_) => {}
         }

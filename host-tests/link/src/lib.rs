@@ -18,6 +18,8 @@ pub use palpate::render::{DialFriction, Ends, FeelPart, Friction, Notch, Spring,
 pub use palpate::scene::{BodyPose, Command, SceneError};
 pub use palpate::servo::{Fault, Phase};
 pub use palpate::track::Contact;
-pub use palpate::wire::{Calibrated, DIALS_HZ, Dial, Hello, KeptFeel, PROTOCOL, Record, Refused, UploadError, View};
+pub use palpate::wire::{
+    Calibrated, DIALS_HZ, Dial, Hello, KeptFeel, MODES_HZ, Modes, PROTOCOL, Record, Refused, UploadError, View,
+};
 pub use port::Port;
 pub use read::SILENCE;

@@ -3,7 +3,7 @@
 use crate::{Device, Error, Line};
 use palpate::servo::{Fault, Phase};
 use palpate::track::Contact;
-use palpate::wire::{Record, View};
+use palpate::wire::{Modes, Record, View};
 use std::time::Duration;
 
 /// A device whose newest view is older than this has fallen silent.
@@ -88,6 +88,16 @@ impl<L: Line> Device<L> {
     pub fn contact(&mut self) -> Result<Contact, Error> {
         let number = self.newest()?.contact;
         Ok(Contact::ALL.into_iter().find(|contact| *contact as u8 == number).unwrap_or_default())
+    }
+
+    /// The modes of the foremost body: what came newest, [`palpate::wire::MODES_HZ`] times a second. None where it does
+    /// not deform.
+    ///
+    /// # Errors
+    /// As [`Self::view`].
+    pub fn modes(&mut self) -> Result<Option<Modes>, Error> {
+        self.newest()?;
+        Ok(self.modes.filter(|(_, at)| self.since(*at) <= SILENCE).map(|(modes, _)| modes))
     }
 
     /// The phase of the loop.

@@ -17,6 +17,7 @@ mod phases;
 mod pins;
 mod reset;
 mod set_up;
+mod soft;
 mod usb;
 mod usb_bus;
 mod wiring;

@@ -6,7 +6,7 @@ use palpate::servo::{Fault, Phase};
 use palpate::track::Contact;
 use palpate::wire::{Sensors, hold};
 use palpate_bake::file::BakedFile;
-use palpate_link::{BodyPose, Command, Device, Dial, Error, Line, View};
+use palpate_link::{BodyPose, Command, Device, Dial, Error, Line, Modes, View};
 use palpate_sim::knob::{SharedKnob, widths_of};
 use palpate_sim::plant::{HandSettings, Plant, PlantSettings};
 use palpate_sim::simulated::Hand;
@@ -114,7 +114,7 @@ impl<'a, L: Line> Console<'a, L> {
         if let Some((until, last)) = self.watches {
             if last.is_none_or(|last| now.saturating_duration_since(last) >= SHOWS) {
                 self.watches = Some((until, Some(now)));
-                writeln!(output, "{}", said(&view))?;
+                writeln!(output, "{}{}", said(&view), deformed(self.device.modes()?))?;
             }
             self.watches = self.watches.filter(|_| now < until);
         }
@@ -153,7 +153,7 @@ impl<'a, L: Line> Console<'a, L> {
             }
             Asked::Where => {
                 let view = self.device.view(SHOWS)?;
-                writeln!(output, "{}", said(&view))?;
+                writeln!(output, "{}{}", said(&view), deformed(self.device.modes()?))?;
                 return Ok(Step::GoesOn);
             }
             Asked::Watch(seconds) => {
@@ -286,6 +286,14 @@ impl<'a, L: Line> Console<'a, L> {
 enum Memory {
     Ram,
     Flash,
+}
+
+/// The modes of the foremost body, in millimetres, up to the last that is not at rest.
+fn deformed(modes: Option<Modes>) -> String {
+    let Some(Modes { q, .. }) = modes else { return String::new() };
+    let count = q.iter().rposition(|q| *q != 0.0).map_or(1, |last| last + 1);
+    let shown: String = q[..count].iter().map(|q| format!(" {:.3}", q * 1e3)).collect();
+    format!("; modes{shown} mm")
 }
 
 /// The dial in a line.
