@@ -4,7 +4,7 @@ use super::feel_clean;
 use super::felt::Felt;
 use crate::devices::{self, Arms, ShippedDevice};
 use crate::feel::table::Worst;
-use crate::feel::{Row, Wish, plot, rows, table};
+use crate::feel::{Crossed, Row, Wish, plot, rows, table};
 use crate::models::ModelFile;
 use crate::report::write_sections;
 use anyhow::{Context, bail, ensure};
@@ -25,6 +25,9 @@ pub struct Arguments {
     /// Body whose edges are crossed (three joints): a model file, or the name of a shipped model
     #[arg(long, default_value = "capped_box")]
     model: PathBuf,
+    /// Modes file of a body that deforms, as `palpate bake` writes it
+    #[arg(long, value_name = "MODES.toml", conflicts_with_all = ["clean", "recording"])]
+    modes: Option<PathBuf>,
     /// Servo rate, Hz
     #[arg(long, default_value_t = 4_000.0)]
     rate: f32,
@@ -89,9 +92,12 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         return feel_clean::run(&arguments.device.each(), |device| wish(arguments, device), &threshold, &arguments.out);
     }
     let file = ModelFile::read(&arguments.model)?;
-    let felt = Felt::read(&file.model()?, &file, &arguments.model, None, None)?;
+    let felt = Felt::read(&file.model()?, &file, &arguments.model, None, arguments.modes.as_deref())?;
     let body = match &felt {
-        Felt::Body { body, .. } => Some((*body, -felt.middle())),
+        Felt::Body { body, soft, .. } => {
+            let soft = soft.as_ref().map(|soft| soft.on(body, arguments.rate)).transpose()?;
+            Some(Crossed { body, soft, origin: -felt.middle() })
+        }
         Felt::Patch { .. } | Felt::Scene(_) => None,
     };
     let mut all: Vec<(&str, Vec<Row>)> = Vec::new();

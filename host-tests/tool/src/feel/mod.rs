@@ -9,4 +9,4 @@ mod rows;
 pub mod table;
 
 pub use clean::{Clean, ENCODERS, RATES, TRIED, clean_stiffness, slice};
-pub use rows::{Row, Wish, rows};
+pub use rows::{Crossed, Row, Wish, rows};

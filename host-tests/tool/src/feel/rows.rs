@@ -6,7 +6,7 @@ use palpate::body::Body;
 use palpate::device::{Device, Encoder, Kinematics};
 use palpate::math::Vec3;
 use palpate::render::{Friction, Material};
-use palpate::servo::{Config, Rendering, Servo, Settings, Surface};
+use palpate::servo::{Config, Rendering, Servo, Settings, SoftBody, Surface};
 use palpate_sim::devices::preset::Preset;
 use palpate_sim::feel::{Deed, Figures, Script, Sensation, Stage, Threshold, over_edges, record, wall};
 use palpate_sim::plant::{HandSettings, PlantSettings};
@@ -68,13 +68,24 @@ pub struct Row {
     pub finer: Option<f64>,
 }
 
-/// All scripts on a device; on a body, which lies at an origin, only with three joints.
+/// A body whose edges are crossed.
+#[derive(Clone, Copy, Debug)]
+pub struct Crossed<'a> {
+    /// At rest.
+    pub body: &'a Body<'a>,
+    /// With its modes, if it deforms, for a loop of the wished rate.
+    pub soft: Option<&'a SoftBody<'a>>,
+    /// Where it lies, metres.
+    pub origin: Vec3,
+}
+
+/// All scripts on a device; on a body only with three joints.
 ///
 /// # Errors
 /// Settings that are refused, a start out of reach, a fault of the loop.
 pub fn rows(
     device: &ShippedDevice,
-    body: Option<(&Body<'_>, Vec3)>,
+    body: Option<Crossed<'_>>,
     wish: &Wish,
     threshold: &Threshold,
 ) -> anyhow::Result<Vec<Row>> {
@@ -141,13 +152,16 @@ impl Bench<'_> {
     fn in_space<K: Kinematics<3> + Copy>(
         &self,
         device: &Device<K, 3>,
-        body: Option<(&Body<'_>, Vec3)>,
+        body: Option<Crossed<'_>>,
     ) -> anyhow::Result<Vec<Row>> {
         let mut rows = self.on_the_wall(device)?;
-        if let Some((body, origin)) = body {
-            let settings = Settings { body_origin_m: origin, ..self.settings };
+        if let Some(Crossed { body, soft, origin }) = body {
+            let (plant, settings) = (&self.shipped.plant, Settings { body_origin_m: origin, ..self.settings });
             for script in over_edges(body, origin, &self.stage(3)) {
-                rows.push(self.row(device, &self.shipped.plant, body, settings, script)?);
+                rows.push(match soft {
+                    Some(soft) => self.row(device, plant, soft, settings, script)?,
+                    None => self.row(device, plant, body, settings, script)?,
+                });
             }
         }
         Ok(rows)
