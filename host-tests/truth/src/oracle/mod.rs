@@ -219,7 +219,7 @@ impl<'a> Oracle<'a> {
         let all = (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column)));
         let mut starts: Vec<_> = all.filter(|(row, column)| is_local_minimum(*row, *column)).collect();
         starts.sort_by(|a, b| distance(a.0, a.1).total_cmp(&distance(b.0, b.1)));
-        let [nearest, others @ ..] = &starts[..] else { unreachable!("the grid has a least distance") };
+        let [nearest, others @ ..] = &starts[..] else { unreachable!("the grid has a smallest distance") };
         let found = |(row, column): (usize, usize)| self.newton([along_u[row], along_v[column]], query);
         others.iter().fold(found(*nearest), |best, start| {
             // A minimum lies within two cells of the grid's, so that what is farther away cannot be the nearest.
