@@ -46,7 +46,8 @@ use crate::track::{Contact, Controller, Outcome, Probe, Witness};
 ///         carrier: Carrier::FIXED,
 ///         period_s: 2.5e-4,
 ///     };
-///     push = soft.push(&mut state, &wall, (state.contact() == Contact::Touching).then_some(touch));
+///     let touch = (state.contact() == Contact::Touching).then_some(touch);
+///     push = soft.push(&mut state, &wall, touch);
 /// }
 /// // 3 mm of spring and body in series: 1/K + 1/k = 3 mm/N.
 /// assert!((push - 1.0).abs() < 0.01);
