@@ -40,6 +40,10 @@ pub struct Found {
     pub patch: usize,
     /// `(u, v)` on it.
     pub parameters: [f64; 2],
+    /// Index of the body's face.
+    pub face: usize,
+    /// `(u, v)` on it.
+    pub on_face: [f32; 2],
     /// The point, metres.
     pub point: Vec3,
     /// Whether the probe is inside a closed body.
@@ -113,6 +117,8 @@ impl<'a> Solver<'a> {
         Found {
             patch: source.patch,
             parameters: source.parameters(parameters.map(f64::from)),
+            face,
+            on_face: parameters,
             point,
             is_inside: self.is_closed && self.sides.is_inside(face, parameters, probe.as_dvec3()),
             evaluations: 0,
