@@ -47,6 +47,27 @@ pub fn usable<const N: usize>(what: &str, rows: &[[f64; N]]) -> Result<(), Refus
     Err(Refusal::Array(format!("{what}[{row}] {why}")))
 }
 
+/// The rows of an array of `(n, modes)` numbers, one after the other: `q` of each mode, metres.
+///
+/// # Errors
+/// Another shape; the first number that is not finite, or too large.
+pub fn amplitudes(array: &PyReadonlyArray2<'_, f64>, count: usize, modes: usize) -> Result<Vec<f32>, Refusal> {
+    let view = array.as_array();
+    let (given, width) = view.dim();
+    if (given, width) != (count, modes) {
+        return Err(Refusal::Array(format!("q is of shape ({given}, {width}), and must be ({count}, {modes})")));
+    }
+    for ((row, mode), q) in view.indexed_iter() {
+        if !q.is_finite() {
+            return Err(Refusal::Array(format!("q[{row}]: q{mode} is {q}: give a finite number of metres")));
+        }
+        if q.abs() > LARGEST {
+            return Err(Refusal::Array(format!("q[{row}]: q{mode} is beyond {LARGEST:e}: give metres")));
+        }
+    }
+    Ok(view.iter().map(|q| *q as f32).collect())
+}
+
 /// An array of `(n,)` numbers.
 pub fn line<T: Element>(py: Python<'_>, numbers: Vec<T>) -> Line<'_, T> {
     numbers.into_pyarray(py)
@@ -56,4 +77,9 @@ pub fn line<T: Element>(py: Python<'_>, numbers: Vec<T>) -> Line<'_, T> {
 pub fn table<T: Element + Clone, const N: usize>(py: Python<'_>, rows: Vec<[T; N]>) -> Table<'_, T> {
     let count = rows.len();
     Array2::from_shape_vec((count, N), rows.into_flattened()).expect("as many as the shape says").into_pyarray(py)
+}
+
+/// An array of this shape, of rows one after the other.
+pub fn wide<T: Element>(py: Python<'_>, numbers: Vec<T>, shape: (usize, usize)) -> Table<'_, T> {
+    Array2::from_shape_vec(shape, numbers).expect("as many as the shape says").into_pyarray(py)
 }

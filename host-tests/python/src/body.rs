@@ -1,11 +1,13 @@
 //! Bodies: baked or loaded.
 
 use crate::model::{Made, Source};
+use crate::modes::Modes;
 use crate::refusal::Refusal;
 use glam::DVec3;
 use palpate::math::Vec3;
 use palpate_bake::{BakedBody, Model};
 use pyo3::prelude::*;
+use std::path::Path;
 
 /// A body. Its tables stay in memory until the process ends.
 #[pyclass(frozen, module = "palpate")]
@@ -18,6 +20,8 @@ pub struct Body {
     pub model: Model,
     /// Its file.
     pub bytes: Vec<u8>,
+    /// Its modes, where it deforms.
+    pub modes: Option<Modes>,
 }
 
 impl Body {
@@ -25,10 +29,17 @@ impl Body {
     ///
     /// # Errors
     /// A fault of it.
-    pub fn of(source: Source) -> Result<Self, Refusal> {
+    pub fn of(source: Source, modes: Option<&Path>) -> Result<Self, Refusal> {
+        let is_cut = matches!(&source, Source::Tables(file, _) if file.body.faces.len() > file.model.patches.len());
         let Made { model, baked, bytes } = source.made()?;
+        if let Some(path) = modes.filter(|_| is_cut) {
+            // The modes' bounds are those over the model's control points, and of such a patch the file has not all.
+            let says = "modes are bounded over whole patches, and tables with a divided patch lack a part of it";
+            return Err(Refusal::Model(format!("{}: {says}: bake the model's own file", path.display())));
+        }
         let tables = baked.to_body().map_err(|fault| Refusal::Model(format!("{}: {fault}", model.name)))?;
-        Ok(Self { tables: Box::leak(Box::new(tables)), baked, model, bytes })
+        let modes = modes.map(|path| Modes::read(path, &model, &tables)).transpose()?;
+        Ok(Self { tables: Box::leak(Box::new(tables)), baked, model, bytes, modes })
     }
 
     /// A place of the model in the frame of the tables.
@@ -53,6 +64,20 @@ impl Body {
     pub fn face(&self, index: usize) -> Result<&'static palpate::body::Face<'static>, Refusal> {
         let faces = self.tables.faces();
         faces.get(index).ok_or_else(|| Refusal::Index(format!("there is no face {index}; there are {}", faces.len())))
+    }
+
+    /// How many modes it has.
+    pub fn count(&self) -> usize {
+        self.modes.as_ref().map_or(0, |modes| modes.fields.len())
+    }
+
+    /// Refuses a body that deforms, for what follows bodies at rest.
+    ///
+    /// # Errors
+    /// That it has modes.
+    pub fn at_rest(&self, what: &str) -> Result<(), Refusal> {
+        let says = "follows bodies without modes: bake this one without modes=, or use closest or simulate";
+        self.modes.as_ref().map_or(Ok(()), |_| Err(Refusal::Settings(format!("{what} {says}"))))
     }
 
     /// Whether it has an inside.

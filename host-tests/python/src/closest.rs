@@ -2,7 +2,10 @@
 
 use crate::body::Body;
 use glam::DVec3;
+use palpate::field::Mode;
+use palpate::math::Vec3;
 use palpate_bake::sides::Sides;
+use palpate_truth::closest::{Solver, Status};
 
 /// Closest points, a row each.
 #[derive(Default)]
@@ -25,6 +28,20 @@ pub struct Found {
     pub complete: Vec<bool>,
     /// Whether the query is beyond the locator's tables.
     pub far: Vec<bool>,
+    /// Whether a `q` is beyond its budget, and was set to it.
+    pub clamped: Vec<bool>,
+}
+
+/// One of them, in the frame of the tables.
+struct Answer {
+    face: usize,
+    on_face: [f32; 2],
+    point: Vec3,
+    is_inside: bool,
+    evaluations: u32,
+    is_complete: bool,
+    is_far: bool,
+    is_clamped: bool,
 }
 
 impl Found {
@@ -39,6 +56,7 @@ impl Found {
             evaluations: Vec::with_capacity(count),
             complete: Vec::with_capacity(count),
             far: Vec::with_capacity(count),
+            clamped: Vec::with_capacity(count),
         }
     }
 
@@ -50,22 +68,58 @@ impl Found {
         for given in points {
             let probe = body.local(*given);
             let located = body.tables.locate(probe);
-            let face = usize::from(located.face);
-            let [u, v] = located.parameters;
-            let point = body.placed(located.point);
-            let distance = DVec3::from_array(point).distance(DVec3::from_array(*given));
-            let is_inside = sides.as_ref().is_some_and(|sides| sides.is_inside(face, [u, v], probe.as_dvec3()));
-            let source = &body.baked.faces[face].source;
-            found.patch.push(source.patch as u32);
-            found.parameters.push(source.parameters([u, v].map(f64::from)));
-            found.point.push(point);
-            found.gap.push(if is_inside { -distance } else { distance });
-            found.face.push(face as u32);
-            found.on_face.push([u, v]);
-            found.evaluations.push(u32::from(located.evaluations));
-            found.complete.push(located.complete);
-            found.far.push(!body.tables.locator().holds(probe));
+            let (face, on_face) = (usize::from(located.face), located.parameters);
+            let is_inside = sides.as_ref().is_some_and(|sides| sides.is_inside(face, on_face, probe.as_dvec3()));
+            let answer = Answer {
+                face,
+                on_face,
+                point: located.point,
+                is_inside,
+                evaluations: u32::from(located.evaluations),
+                is_complete: located.complete,
+                is_far: !body.tables.locator().holds(probe),
+                is_clamped: false,
+            };
+            found.push(body, *given, &answer);
         }
         found
+    }
+
+    /// The same of a body displaced by its modes: to each place its row of `q`, metres, one after the other.
+    pub fn displaced(body: &Body, modes: &[Mode], points: &[[f64; 3]], q: &[f32], signed: bool) -> Self {
+        let rigid = Solver::new(body.tables, &body.baked);
+        let solver = rigid.deformed(modes);
+        let mut found = Self::with_room(points.len());
+        for (given, q) in points.iter().zip(q.chunks_exact(modes.len())) {
+            let at = solver.cold(body.local(*given), q).0;
+            let answer = Answer {
+                face: at.face,
+                on_face: at.on_face,
+                point: at.point,
+                is_inside: signed && at.is_inside,
+                evaluations: at.evaluations,
+                is_complete: at.status == Status::Converged,
+                is_far: at.status == Status::Far,
+                is_clamped: !solver.holds(q),
+            };
+            found.push(body, *given, &answer);
+        }
+        found
+    }
+
+    fn push(&mut self, body: &Body, given: [f64; 3], answer: &Answer) {
+        let point = body.placed(answer.point);
+        let distance = DVec3::from_array(point).distance(DVec3::from_array(given));
+        let source = &body.baked.faces[answer.face].source;
+        self.patch.push(source.patch as u32);
+        self.parameters.push(source.parameters(answer.on_face.map(f64::from)));
+        self.point.push(point);
+        self.gap.push(if answer.is_inside { -distance } else { distance });
+        self.face.push(answer.face as u32);
+        self.on_face.push(answer.on_face);
+        self.evaluations.push(answer.evaluations);
+        self.complete.push(answer.is_complete);
+        self.far.push(answer.is_far);
+        self.clamped.push(answer.is_clamped);
     }
 }

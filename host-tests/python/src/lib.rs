@@ -11,6 +11,7 @@ mod evaluate;
 mod link;
 mod methods;
 mod model;
+mod modes;
 mod pair;
 mod patches;
 mod refusal;

@@ -1,9 +1,10 @@
 //! The methods of a body in Python.
 
-use crate::arrays::{Line, Table, line, rows, table, usable};
+use crate::arrays::{Line, Table, amplitudes, line, rows, table, usable};
 use crate::body::Body;
 use crate::closest::Found;
 use crate::model::{of_baked, of_file};
+use crate::modes::Modes;
 use crate::pair::Pair;
 use crate::refusal::Refusal;
 use crate::settle::settle;
@@ -18,7 +19,13 @@ use std::path::PathBuf;
 #[pymethods]
 impl Body {
     #[staticmethod]
-    fn bake(py: Python<'_>, model: &Bound<'_, PyAny>, tolerance: f64, unit: &str) -> PyResult<Self> {
+    fn bake(
+        py: Python<'_>,
+        model: &Bound<'_, PyAny>,
+        tolerance: f64,
+        unit: &str,
+        modes: Option<PathBuf>,
+    ) -> PyResult<Self> {
         let source = if let Ok(path) = model.extract::<PathBuf>() {
             py.detach(|| of_file(&path, tolerance))?
         } else {
@@ -27,12 +34,12 @@ impl Body {
                 .map_err(|_| Refusal::Model("a model is a path, or a list of patches, each a dictionary".to_owned()))?;
             patches::model(&listed, unit)?
         };
-        Ok(py.detach(|| Self::of(source))?)
+        Ok(py.detach(|| Self::of(source, modes.as_deref()))?)
     }
 
     #[staticmethod]
     fn load(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        Ok(py.detach(|| of_baked(&path).and_then(Self::of))?)
+        Ok(py.detach(|| of_baked(&path).and_then(|source| Self::of(source, None)))?)
     }
 
     fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
@@ -85,6 +92,16 @@ impl Body {
         self.tables.is_convex()
     }
 
+    #[getter]
+    fn modes(&self) -> usize {
+        self.count()
+    }
+
+    #[getter]
+    fn budget(&self) -> f32 {
+        self.modes.as_ref().map_or(0.0, Modes::budget)
+    }
+
     fn __repr__(&self) -> String {
         format!("<palpate.Body {:?}: {} faces, {} edges>", self.model.name, self.faces(), self.edges())
     }
@@ -93,10 +110,15 @@ impl Body {
         &self,
         py: Python<'py>,
         points: PyReadonlyArray2<'py, f64>,
+        q: PyReadonlyArray2<'py, f64>,
         signed: bool,
     ) -> PyResult<Bound<'py, PyTuple>> {
         let points = rows::<3>("points", &points)?;
-        let found = py.detach(|| Found::of(self, &points, signed));
+        let q = amplitudes(&q, points.len(), self.count())?;
+        let found = py.detach(|| match &self.modes {
+            None => Found::of(self, &points, signed),
+            Some(modes) => Found::displaced(self, modes.fields, &points, &q, signed),
+        });
         (
             line(py, found.patch),
             table(py, found.parameters),
@@ -107,6 +129,7 @@ impl Body {
             line(py, found.evaluations),
             line(py, found.complete),
             line(py, found.far),
+            line(py, found.clamped),
         )
             .into_pyobject(py)
     }

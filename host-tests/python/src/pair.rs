@@ -29,6 +29,7 @@ impl Pair {
     /// # Errors
     /// That there is no such face.
     pub fn new(bodies: [Py<Body>; 2], faces: [usize; 2]) -> Result<Self, Refusal> {
+        bodies.iter().try_for_each(|body| body.get().at_rest("a pair"))?;
         let [first, second] = [bodies[0].get().face(faces[0])?, bodies[1].get().face(faces[1])?];
         let witness = PairWitness::at(&first.patch, &second.patch, [0.5; 2], [0.5; 2]);
         Ok(Self { bodies, faces, witness })

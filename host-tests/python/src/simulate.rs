@@ -4,9 +4,10 @@ use crate::refusal::Refusal;
 use glam::DVec3;
 use palpate::body::Body;
 use palpate::device::{Counts, Device, Kinematics, Protection};
+use palpate::field::MAX_MODES;
 use palpate::math::Vec3;
 use palpate::patch::Patch as _;
-use palpate::servo::{Config, Event, Guard, Input, Safety, Servo, Settings};
+use palpate::servo::{Config, Event, Guard, Input, Safety, Servo, Settings, SoftBody, Surface, Tracked as _};
 use palpate::wire::Report;
 use palpate_sim::plant::{HandSettings, PathError, Plant, PlantSettings, TouchingPath, direction_around};
 
@@ -45,6 +46,8 @@ pub struct Wishes {
     pub protected: bool,
     /// Where the origin of the tables lies in the device's workspace, m; centres the body if not given.
     pub origin: Option<DVec3>,
+    /// The body with its modes, where it deforms.
+    pub soft: Option<&'static SoftBody<'static>>,
 }
 
 /// One tick as both ends saw it.
@@ -57,6 +60,8 @@ pub struct Sample {
     pub report: Report,
     /// Where the simulated probe really was, m, in the device's frame.
     pub hand: [f64; 3],
+    /// `q` of each mode, m.
+    pub q: [f32; MAX_MODES],
 }
 
 /// A run, a sample a tick.
@@ -83,6 +88,21 @@ pub fn run<K: Kinematics<3>>(
     body: &'static Body<'static>,
     wishes: &Wishes,
 ) -> Result<Run, Refusal> {
+    match wishes.soft {
+        None => run_over(device, protection, simulated, body, body, wishes),
+        Some(soft) => run_over(device, protection, simulated, body, soft, wishes),
+    }
+}
+
+/// Runs it over a surface, in a hand that touches the body at rest.
+fn run_over<K: Kinematics<3>, S: Surface>(
+    device: &'static Device<K, 3>,
+    protection: Protection<3>,
+    simulated: &PlantSettings,
+    body: &'static Body<'static>,
+    surface: &'static S,
+    wishes: &Wishes,
+) -> Result<Run, Refusal> {
     let ticks = wishes.seconds * f64::from(wishes.rate);
     if !(wishes.seconds <= LONGEST && (1.0..=f64::from(u32::MAX)).contains(&ticks)) {
         let Wishes { seconds, rate, .. } = wishes;
@@ -102,11 +122,11 @@ pub fn run<K: Kinematics<3>>(
         Refusal::Settings(format!("{says}: this device takes up to {most_stiffness} N/m and {most_damping} N·s/m"))
     };
     let config = Config { settings, safety: SAFETY, ..Config::DEFAULT };
-    let servo = Servo::try_new(device, body, config).map_err(|error| bound(&error))?;
+    let servo = Servo::try_new(device, surface, config).map_err(|error| bound(&error))?;
     let mut plant = plant(device, simulated, body, settings.body_origin_m, wishes)?;
     let refused = |says: &dyn std::fmt::Display| Refusal::Settings(says.to_string());
     let samples = if wishes.protected {
-        let servo = Servo::try_protected(device, body, protection, config).map_err(|error| refused(&error))?;
+        let servo = Servo::try_protected(device, surface, protection, config).map_err(|error| refused(&error))?;
         looped(&servo, &mut plant, wishes.rate, ticks as u32)
     } else {
         looped(&servo, &mut plant, wishes.rate, ticks as u32)
@@ -115,8 +135,8 @@ pub fn run<K: Kinematics<3>>(
 }
 
 /// The closed loop, in lockstep.
-fn looped<K: Kinematics<3>, G: Guard<3>>(
-    servo: &Servo<'_, Body<'static>, K, 3, G>,
+fn looped<K: Kinematics<3>, S: Surface, G: Guard<3>>(
+    servo: &Servo<'_, S, K, 3, G>,
     plant: &mut Plant,
     rate: f32,
     ticks: u32,
@@ -129,7 +149,8 @@ fn looped<K: Kinematics<3>, G: Guard<3>>(
         servo.note(&mut state, Event::LinkAlive);
         let _ = servo.tick(&mut state, Input::Sensors { counts: counts.map(Counts), enable: tick >= enable_at });
         let report = Report::new(&state, 0);
-        samples.push(Sample { time, counts, report, hand });
+        let q = state.witness().modes().unwrap_or_default();
+        samples.push(Sample { time, counts, report, hand, q });
         plant.advance(report.duties);
     }
     samples

@@ -1,6 +1,6 @@
 //! Simulated runs for Python: arrays, a row a tick.
 
-use crate::arrays::{line, table, usable};
+use crate::arrays::{line, table, usable, wide};
 use crate::body::Body;
 use crate::devices::run_on;
 use crate::simulate::{Run, Sample, Wishes};
@@ -36,16 +36,29 @@ pub fn simulate<'py>(
         usable("at", &[at])?;
     }
     let origin = at.map(|at| DVec3::from_array(at) + body.middle());
-    let wishes =
-        Wishes { rate, seconds, seed, stiffness, damping, max_force, velocity_corner, soft_start, protected, origin };
     // As the emulated boards do, whose runs have the same state hash. The loop wants its surface for good.
     let surface = Box::leak(Box::new(body.tables.with_effort(Effort::ONE)));
+    let soft = body.modes.as_ref().map(|modes| modes.moving(*surface, rate)).transpose()?;
+    let soft = soft.map(|soft| &*Box::leak(Box::new(soft)));
+    let wishes = Wishes {
+        rate,
+        seconds,
+        seed,
+        stiffness,
+        damping,
+        max_force,
+        velocity_corner,
+        soft_start,
+        protected,
+        origin,
+        soft,
+    };
     let run = py.detach(|| run_on(&device, surface, &wishes))?;
-    columns(py, &run)
+    columns(py, &run, body.count())
 }
 
 /// A run as arrays by name.
-fn columns<'py>(py: Python<'py>, run: &Run) -> PyResult<Bound<'py, PyDict>> {
+fn columns<'py>(py: Python<'py>, run: &Run, modes: usize) -> PyResult<Bound<'py, PyDict>> {
     let samples = &run.samples;
     let number = |what: fn(&Sample) -> u32| line(py, samples.iter().map(what).collect());
     let columns = PyDict::new(py);
@@ -62,6 +75,8 @@ fn columns<'py>(py: Python<'py>, run: &Run) -> PyResult<Bound<'py, PyDict>> {
     columns.set_item("feature", number(|sample| sample.report.feature.into()))?;
     columns.set_item("phase", number(|sample| sample.report.phase.into()))?;
     columns.set_item("fault", number(|sample| sample.report.fault.into()))?;
+    let q = samples.iter().flat_map(|sample| &sample.q[..modes]).copied().collect();
+    columns.set_item("q", wide(py, q, (samples.len(), modes)))?;
     columns.set_item("digest", number(|sample| sample.report.digest))?;
     Ok(columns)
 }

@@ -41,6 +41,7 @@ impl Tracker {
     pub fn new(body: Py<Body>, name: &str, start: Option<(u16, f32, f32)>) -> Result<Self, Refusal> {
         let controller = law(name)?;
         let of = body.get();
+        of.at_rest("a tracker")?;
         let state = match start {
             None => of.tables.start(),
             Some((face, u, v)) => {

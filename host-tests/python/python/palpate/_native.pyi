@@ -30,7 +30,12 @@ class SettingsError(ValueError): ...
 @final
 class Body:
     @staticmethod
-    def bake(model: str | PathLike[str] | Sequence[Mapping[str, Any]], tolerance: float, unit: str) -> Body: ...
+    def bake(
+        model: str | PathLike[str] | Sequence[Mapping[str, Any]],
+        tolerance: float,
+        unit: str,
+        modes: str | PathLike[str] | None,
+    ) -> Body: ...
     @staticmethod
     def load(path: str | PathLike[str]) -> Body: ...
     def save(self, path: str | PathLike[str]) -> None: ...
@@ -49,11 +54,15 @@ class Body:
     @property
     def centre(self) -> tuple[float, float, float]: ...
     @property
+    def modes(self) -> int: ...
+    @property
+    def budget(self) -> float: ...
+    @property
     def is_closed(self) -> bool: ...
     @property
     def is_convex(self) -> bool: ...
     def closest(
-        self, points: NDArray[np.float64], signed: bool
+        self, points: NDArray[np.float64], q: NDArray[np.float64], signed: bool
     ) -> tuple[
         NDArray[np.uint32],
         NDArray[np.float64],
@@ -62,6 +71,7 @@ class Body:
         NDArray[np.uint32],
         NDArray[np.float32],
         NDArray[np.uint32],
+        NDArray[np.bool_],
         NDArray[np.bool_],
         NDArray[np.bool_],
     ]: ...

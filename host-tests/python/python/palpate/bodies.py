@@ -6,7 +6,7 @@ from os import PathLike
 from typing import Any, Mapping, Sequence
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from .results import Apart, Closest, Curved, Settled, Ticks
@@ -24,7 +24,11 @@ class Body:
 
     @staticmethod
     def bake(
-        model: str | PathLike[str] | Sequence[Mapping[str, Any]], *, tolerance: float = 1e-5, unit: str = "m"
+        model: str | PathLike[str] | Sequence[Mapping[str, Any]],
+        *,
+        tolerance: float = 1e-5,
+        unit: str = "m",
+        modes: str | PathLike[str] | None = None,
     ) -> Body:
         """Bakes a body, its certificates and Voronoi regions proved on the way.
 
@@ -33,8 +37,11 @@ class Body:
         each a dictionary as in a model file: ``degree`` (two integers) and ``points`` (rows along u of rows along v of
         3 or 4 numbers, in `unit`: "m", "cm" or "mm"), and by choice ``name``, ``knots_u``, ``knots_v``, ``flip``.
 
-        Raises ModelError for what is no body, FileError for a spoiled ``.palp``, FileNotFoundError and its like for a
-        path that cannot be read; each names the culprit.
+        With `modes`, the path of a modes file as of ``palpate closest --modes``, the body deforms: `closest` then takes
+        `q`, and `simulate` moves its modes. `evaluate`, `settle` and `save` are of the body at rest.
+
+        Raises ModelError for what is no body and for a fault of its modes, FileError for a spoiled ``.palp``,
+        FileNotFoundError and its like for a path that cannot be read; each names the culprit.
 
         >>> import palpate
         >>> square = {"degree": [1, 1], "points": [[[0, 0, 0], [0, 4, 0]], [[6, 0, 0], [6, 4, 0]]]}
@@ -43,7 +50,7 @@ class Body:
         """
         if isinstance(model, (list, tuple)):
             model = [_plain(patch) for patch in model]
-        return Body(_native.Body.bake(model, tolerance, unit))
+        return Body(_native.Body.bake(model, tolerance, unit, modes))
 
     @staticmethod
     def load(path: str | PathLike[str]) -> Body:
@@ -57,13 +64,33 @@ class Body:
         """Writes the body's file (``.palp``), byte by byte the one that ``palpate bake`` writes."""
         self._native.save(path)
 
-    def closest(self, points: ArrayLike, *, signed: bool = True) -> Closest:
+    def closest(self, points: ArrayLike, q: ArrayLike | None = None, *, signed: bool = True) -> Closest:
         """The closest points of `points`, (n, 3), m, each from a standing start.
 
-        ``signed=False`` leaves out on which side of a closed body a point is, which takes most of the time. Raises
-        ArrayError for another shape, or a number that is not finite.
+        A body with modes takes `q` of each of its M modes, m: (M,) for all points, or (n, M); a q beyond `budget` is
+        set to it, and `clamped` is true. The answers are those of ``palpate closest --modes``.
+
+        ``signed=False`` leaves out on which side of a closed body a point is, which takes most of the time of a body at
+        rest. Raises ArrayError for another shape, or a number that is not finite.
         """
-        return Closest(*self._native.closest(rows("points", points, 3), signed))
+        places = rows("points", points, 3)
+        return Closest(*self._native.closest(places, self._amplitudes(q, len(places)), signed))
+
+    def _amplitudes(self, q: ArrayLike | None, count: int) -> NDArray[np.float64]:
+        """`q` of every point, (count, M)."""
+        modes = self.modes
+        if q is None and modes:
+            raise _native.ArrayError(f"q is missing: give q of each of the {modes} modes, m; zeros to stay at rest")
+        if q is None:
+            return np.empty((count, 0))
+        if not modes:
+            raise _native.ArrayError("q has no mode: leave it out, or bake the body with modes=")
+        given = rows("q", q, modes, f": give q of each of the {modes} modes, m")
+        if len(given) == 1:
+            return np.repeat(given, count, axis=0)
+        if len(given) != count:
+            raise _native.ArrayError(f"q has {len(given)} rows, and points {count}: give one for all, or one a point")
+        return given
 
     def evaluate(self, face: int, parameters: ArrayLike) -> Curved:
         """Points of a face at `parameters`, (n, 2), 0 to 1, with their first and second derivatives.
@@ -84,11 +111,17 @@ class Body:
         return Settled(*self._native.settle(face, place, rows("starts", starts, 2), law, most))
 
     def tracker(self, *, law: str = "second-order", start: tuple[int, float, float] | None = None) -> Tracker:
-        """A tracker that knows nothing yet, or whose witness point lies at `start`: a face and (u, v) on it."""
+        """A tracker that knows nothing yet, or whose witness point lies at `start`: a face and (u, v) on it.
+
+        Raises SettingsError for a body with modes.
+        """
         return Tracker(self._native.tracker(law, start))
 
     def pair(self, other: Body, face: int = 0, other_face: int = 0) -> Pair:
-        """The closest pair of a face of this body and one of another; both begin in the middle of their faces."""
+        """The closest pair of a face of this body and one of another; both begin in the middle of their faces.
+
+        Raises SettingsError for a body with modes.
+        """
         return Pair(self._native.pair(other._native, face, other_face))
 
     @property
@@ -125,6 +158,16 @@ class Body:
     def centre(self) -> tuple[float, float, float]:
         """Where the origin of its tables lies in the model, m."""
         return self._native.centre
+
+    @property
+    def modes(self) -> int:
+        """How many modes it deforms by; 0 for a body that does not."""
+        return self._native.modes
+
+    @property
+    def budget(self) -> float:
+        """The maximum of abs(q) of each mode, m; 0 without modes."""
+        return self._native.budget
 
     @property
     def is_closed(self) -> bool:

@@ -43,6 +43,9 @@ def simulate(
     `protected` with all protection of the device; `at`, (3,), m, where the model's origin lies in the device's
     workspace, or None to centre the body there.
 
+    A body with modes gives way: `q` of the run is theirs in each tick; its modes file then needs ``frequency``,
+    ``mass`` and ``damping`` of each, ModelError says which is missing.
+
     Raises SettingsError for what the device or the loop refuses and for a device file that describes no device,
     FileNotFoundError and its like for one that cannot be read.
     """

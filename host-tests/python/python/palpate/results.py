@@ -18,9 +18,10 @@ class Closest(NamedTuple):
     face : (n,) uint32 -- index of the body's face; a patch may be several.
     on_face : (n, 2) float32 -- (u, v) on the face, as the firmware has them.
     evaluations : (n,) uint32 -- evaluations of patches spent.
-    complete : (n,) bool -- whether every candidate was searched to its end.
+    complete : (n,) bool -- whether every candidate was searched to its end; with modes, and the query is not `far`.
     far : (n,) bool -- whether the query lies beyond the tables: it takes the list of the nearest cell, which is not
         proved to hold the closest point from there.
+    clamped : (n,) bool -- whether a q was beyond its budget, and was set to it.
     """
 
     patch: NDArray[np.uint32]
@@ -32,6 +33,7 @@ class Closest(NamedTuple):
     evaluations: NDArray[np.uint32]
     complete: NDArray[np.bool_]
     far: NDArray[np.bool_]
+    clamped: NDArray[np.bool_]
 
 
 class Ticks(NamedTuple):
@@ -113,6 +115,7 @@ class Run(NamedTuple):
     feature : (n,) uint32 -- as in `Ticks`.
     phase : (n,) uint32 -- 0 reset, 1 calibrate, 2 armed, 3 running, 4 fault.
     fault : (n,) uint32 -- what stopped the loop, 0 for nothing.
+    q : (n, M) float32 -- q of each mode, m; M is 0 for a body without modes.
     digest : (n,) uint32 -- hash over every bit of the loop's state.
     """
 
@@ -129,6 +132,7 @@ class Run(NamedTuple):
     feature: NDArray[np.uint32]
     phase: NDArray[np.uint32]
     fault: NDArray[np.uint32]
+    q: NDArray[np.float32]
     digest: NDArray[np.uint32]
 
 

@@ -8,10 +8,10 @@ from numpy.typing import ArrayLike, NDArray
 from ._native import ArrayError
 
 
-def rows(what: str, array: ArrayLike, width: int) -> NDArray[np.float64]:
+def rows(what: str, array: ArrayLike, width: int, why: str = "") -> NDArray[np.float64]:
     """An array of (n, `width`); one row may come without its brackets.
 
-    Raises ArrayError, with the name `what`, for anything else.
+    Raises ArrayError, with the name `what`, for anything else, and `why` for another shape.
     """
     try:
         given = np.asarray(array, dtype=np.float64)
@@ -22,7 +22,7 @@ def rows(what: str, array: ArrayLike, width: int) -> NDArray[np.float64]:
     if given.shape == (width,):
         return given.reshape(1, width)
     if given.ndim != 2 or given.shape[1] != width:
-        raise ArrayError(f"{what} is of shape {given.shape}, and must be (n, {width})")
+        raise ArrayError(f"{what} is of shape {given.shape}, and must be (n, {width}){why}")
     return given
 
 
