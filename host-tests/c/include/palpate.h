@@ -7,10 +7,10 @@
  * in newtons, times in seconds, numbers in single precision. A body's numbers are in the frame of its tables, whose
  * origin lies in the model where palpate_file_info::centre says.
  *
- * **Handles** (::palpate_body, ::palpate_tracker, ::palpate_pair, ::palpate_servo, ::palpate_receiver) lie in memory of
- * the caller's, static or on a stack, and are made by the function that takes their size. What is in them is nobody's
- * business. A handle stays where it was made: a copy elsewhere is refused with #PALPATE_NOT_READY, as is memory that
- * was never made a handle. A body that is loaded anew ends what stands on it.
+ * **Handles** (::palpate_body, ::palpate_soft_body, ::palpate_tracker, ::palpate_pair, ::palpate_servo,
+ * ::palpate_receiver) lie in memory of the caller's, static or on a stack, and are made by the function that takes
+ * their size. What is in them is nobody's business. A handle stays where it was made: a copy elsewhere is refused with
+ * #PALPATE_NOT_READY, as is memory that was never made a handle. A body that is loaded anew ends what stands on it.
  *
  * **What is checked**: each pointer for null and alignment, each length, each number that must be finite, each index,
  * the whole of a file. **What the caller promises**, for nobody can check it: a pointer that is not null points to as
@@ -49,6 +49,8 @@ typedef uintptr_t palpate_word;
 #define PALPATE_FACE_WORDS 57
 #define PALPATE_EDGE_WORDS 13
 #define PALPATE_BODY_WORDS 24
+#define PALPATE_MODE_WORDS 43
+#define PALPATE_SOFT_BODY_WORDS 84
 #define PALPATE_TRACKER_WORDS 76
 #define PALPATE_PAIR_WORDS 56
 #define PALPATE_SERVO_WORDS 500
@@ -57,6 +59,8 @@ typedef uintptr_t palpate_word;
 #define PALPATE_FACE_WORDS 45
 #define PALPATE_EDGE_WORDS 9
 #define PALPATE_BODY_WORDS 20
+#define PALPATE_MODE_WORDS 22
+#define PALPATE_SOFT_BODY_WORDS 56
 #define PALPATE_TRACKER_WORDS 40
 #define PALPATE_PAIR_WORDS 32
 #define PALPATE_SERVO_WORDS 260
@@ -68,6 +72,8 @@ typedef uintptr_t palpate_word;
 
 /** A body: the tables of a file, checked. */
 typedef struct palpate_body { palpate_word reserved[PALPATE_BODY_WORDS]; } palpate_body;
+/** A body that gives way: a body and its modes. */
+typedef struct palpate_soft_body { palpate_word reserved[PALPATE_SOFT_BODY_WORDS]; } palpate_soft_body;
 /** The closest point of a body, followed from tick to tick. */
 typedef struct palpate_tracker { palpate_word reserved[PALPATE_TRACKER_WORDS]; } palpate_tracker;
 /** The closest pair of two faces. */
@@ -130,7 +136,12 @@ enum {
     PALPATE_HOMING_STILL = 73,             /**< No tick to hold still for. */
     PALPATE_HOMING_STOP = 74,              /**< A search for a stop that makes no sense. */
     PALPATE_HOMING_TIMEOUT = 75,           /**< No more time than it is to hold still. */
-    PALPATE_HOMING_STARTED = 76            /**< The loop has ticked already. */
+    PALPATE_HOMING_STARTED = 76,           /**< The loop has ticked already. */
+    PALPATE_SOFT_MODES = 80,               /**< No modes, or more than #PALPATE_MAX_MODES. */
+    PALPATE_SOFT_MODE = 81,                /**< A limit, a bound or a bump's radius negative. */
+    PALPATE_SOFT_MOTION = 82,              /**< Stiffness not positive, mass or damping negative, or too fast. */
+    PALPATE_SOFT_RATE = 83,                /**< The modes' rate not positive and finite. */
+    PALPATE_SOFT_NONE = 84                 /**< The loop's body has no modes. */
 };
 
 /** A status in a sentence that stays for ever; "unknown" of a code that is none. */
@@ -191,6 +202,49 @@ palpate_status palpate_body_load(palpate_body *body, size_t body_bytes, const ui
  * @param located where the answer goes
  */
 palpate_status palpate_closest(const palpate_body *body, const float *probe, palpate_located *located);
+/** @} */
+
+/** @name Bodies that give way
+ *  A servo loop moves their modes under the push: palpate_servo_start_serial_arm_soft() and the like.
+ *  @{ */
+
+/** Modes of a body at most. */
+#define PALPATE_MAX_MODES 8
+
+/** A mode and its motion. `modes.py` writes an array of them from what `palpate bake --soft` wrote. */
+typedef struct palpate_mode {
+    float constant[3];       /**< Displacement at the origin of the tables, metres per metre of q. */
+    float linear[3][3];      /**< Of x, y, z, 1/m. */
+    float quadratic[6][3];   /**< Of xx, xy, xz, yy, yz, zz, 1/m². */
+    float bump_direction[3]; /**< A local displacement that is added, metres per metre of q at its middle. */
+    float bump_at[3];        /**< Its middle, m. */
+    float bump_radius;       /**< m; 0: none. */
+    float limit;             /**< Maximum of |q|, m. */
+    float motion;            /**< Bound of the displacement over the body, a metre of q. */
+    float stretch;           /**< Bound of its first derivative, 1/m. */
+    float bend;              /**< Of the second one, 1/m². */
+    float twist;             /**< Of the third one, 1/m³. */
+    float mass;              /**< Modal mass, kg; 0: no inertia. */
+    float damping;           /**< N·s/m; 0 as well as the mass: it follows the force at once. */
+    float stiffness;         /**< N/m. */
+} palpate_mode;
+
+/**
+ * Gives a body modes, each checked. They are copied into the buffer; body and buffer stay as they are for as long as
+ * the soft body is used.
+ *
+ * @param soft         where the soft body goes
+ * @param soft_bytes   `sizeof` it
+ * @param body         the body, at rest
+ * @param modes        its modes, as they were baked for this body
+ * @param count        how many, 1 to #PALPATE_MAX_MODES
+ * @param rate         rate of the loop, Hz; in a loop of another rate it is a fault
+ * @param buffer       memory for the modes, at the alignment of ::palpate_word
+ * @param buffer_bytes `sizeof` it; #PALPATE_MODE_WORDS words a mode
+ */
+palpate_status palpate_soft_body_load(palpate_soft_body *soft, size_t soft_bytes, const palpate_body *body,
+                                      const palpate_mode *modes, size_t count, float rate, void *buffer,
+                                      size_t buffer_bytes);
 /** @} */
 
 /** @name Trackers
@@ -622,6 +676,62 @@ palpate_status palpate_servo_start_paddle_protected(palpate_servo *servo, size_t
                                                     const palpate_body *body, const palpate_settings *settings,
                                                     const palpate_protection *protection, uint32_t reset);
 
+/** Starts a loop without protection on a serial arm, with a body that gives way. */
+palpate_status palpate_servo_start_serial_arm_soft(palpate_servo *servo, size_t servo_bytes,
+                                                   const palpate_serial_arm *mechanism, const palpate_device *device,
+                                                   const palpate_soft_body *body, const palpate_settings *settings,
+                                                   uint32_t reset);
+/** The same on a delta. */
+palpate_status palpate_servo_start_delta_soft(palpate_servo *servo, size_t servo_bytes, const palpate_delta *mechanism,
+                                              const palpate_device *device, const palpate_soft_body *body,
+                                              const palpate_settings *settings, uint32_t reset);
+/** The same on a linkage arm. */
+palpate_status palpate_servo_start_linkage_arm_soft(palpate_servo *servo, size_t servo_bytes,
+                                                    const palpate_linkage_arm *mechanism, const palpate_device *device,
+                                                    const palpate_soft_body *body, const palpate_settings *settings,
+                                                    uint32_t reset);
+/** The same on a five-bar. */
+palpate_status palpate_servo_start_five_bar_soft(palpate_servo *servo, size_t servo_bytes,
+                                                 const palpate_five_bar *mechanism, const palpate_device *device,
+                                                 const palpate_soft_body *body, const palpate_settings *settings,
+                                                 uint32_t reset);
+/** The same on a paddle. */
+palpate_status palpate_servo_start_paddle_soft(palpate_servo *servo, size_t servo_bytes,
+                                               const palpate_paddle *mechanism, const palpate_device *device,
+                                               const palpate_soft_body *body, const palpate_settings *settings,
+                                               uint32_t reset);
+/** Starts a loop with protection on a serial arm, with a body that gives way. */
+palpate_status palpate_servo_start_serial_arm_soft_protected(palpate_servo *servo, size_t servo_bytes,
+                                                             const palpate_serial_arm *mechanism,
+                                                             const palpate_device *device,
+                                                             const palpate_soft_body *body,
+                                                             const palpate_settings *settings,
+                                                             const palpate_protection *protection, uint32_t reset);
+/** The same on a delta. */
+palpate_status palpate_servo_start_delta_soft_protected(palpate_servo *servo, size_t servo_bytes,
+                                                        const palpate_delta *mechanism, const palpate_device *device,
+                                                        const palpate_soft_body *body, const palpate_settings *settings,
+                                                        const palpate_protection *protection, uint32_t reset);
+/** The same on a linkage arm. */
+palpate_status palpate_servo_start_linkage_arm_soft_protected(palpate_servo *servo, size_t servo_bytes,
+                                                              const palpate_linkage_arm *mechanism,
+                                                              const palpate_device *device,
+                                                              const palpate_soft_body *body,
+                                                              const palpate_settings *settings,
+                                                              const palpate_protection *protection, uint32_t reset);
+/** The same on a five-bar. */
+palpate_status palpate_servo_start_five_bar_soft_protected(palpate_servo *servo, size_t servo_bytes,
+                                                           const palpate_five_bar *mechanism,
+                                                           const palpate_device *device, const palpate_soft_body *body,
+                                                           const palpate_settings *settings,
+                                                           const palpate_protection *protection, uint32_t reset);
+/** The same on a paddle. */
+palpate_status palpate_servo_start_paddle_soft_protected(palpate_servo *servo, size_t servo_bytes,
+                                                         const palpate_paddle *mechanism, const palpate_device *device,
+                                                         const palpate_soft_body *body,
+                                                         const palpate_settings *settings,
+                                                         const palpate_protection *protection, uint32_t reset);
+
 /**
  * One tick, from encoder counts to duties. The output is off unless the call comes back with #PALPATE_OK.
  *
@@ -687,6 +797,14 @@ palpate_status palpate_servo_index(palpate_servo *servo, uint32_t joint, int32_t
  * @param state where it goes
  */
 palpate_status palpate_servo_state(palpate_servo *servo, palpate_state *state);
+
+/**
+ * How far each mode of a body that gives way is after the last tick.
+ *
+ * @param servo the loop
+ * @param q     where they go, #PALPATE_MAX_MODES numbers, m; those of modes that the body has not are 0
+ */
+palpate_status palpate_servo_modes(palpate_servo *servo, float *q);
 /** @} */
 
 /** @name The wire

@@ -1,38 +1,50 @@
-//! The surface of a loop: a body, with one tracking law.
+//! The surface of a loop, with one tracking law.
 
-use palpate_core::body::{Body, BodyWitness, TableCursor};
-use palpate_core::servo::{BakedTables, Surface, Touched};
+use palpate_core::body::{Body, TableCursor};
+use palpate_core::render::Penalty;
+use palpate_core::servo::{BakedTables, Surface, ToolContact, Touched};
 use palpate_core::track::{Controller, Probe};
 
-/// A body whose witness point always follows the law of second order, whatever the settings say: so the compiler sees
+/// A surface whose witness point always follows the law of second order, whatever the settings say: so the compiler sees
 /// that no other law is used and links none.
 #[derive(Clone, Copy)]
 #[repr(transparent)]
-pub struct Felt(pub Body<'static>);
+pub struct Felt<S = Body<'static>>(pub S);
 
-impl Surface for Felt {
-    type Witness = BodyWitness;
+impl<S: Surface> Surface for Felt<S> {
+    type Witness = S::Witness;
 
-    fn rest(&self) -> BodyWitness {
+    const HAS_OWN_PUSH: bool = S::HAS_OWN_PUSH;
+
+    fn rest(&self) -> S::Witness {
         self.0.rest()
     }
 
+    fn is_for(&self, period: f32) -> bool {
+        self.0.is_for(period)
+    }
+
     #[inline]
-    fn follow(&self, _: &Controller, witness: &mut BodyWitness, probe: Probe, period: f32) -> Touched {
+    fn follow(&self, _: &Controller, witness: &mut S::Witness, probe: Probe, period: f32) -> Touched {
         self.0.follow(&Controller::SecondOrder, witness, probe, period)
     }
 
-    fn release(&self, witness: &mut BodyWitness) {
+    #[inline]
+    fn push(&self, witness: &mut S::Witness, wall: &Penalty, touch: Option<ToolContact>) -> f32 {
+        self.0.push(witness, wall, touch)
+    }
+
+    fn release(&self, witness: &mut S::Witness) {
         self.0.release(witness);
     }
 
     #[inline]
-    fn is_too_deep(&self, witness: &BodyWitness) -> bool {
-        Surface::is_too_deep(&self.0, witness)
+    fn is_too_deep(&self, witness: &S::Witness) -> bool {
+        self.0.is_too_deep(witness)
     }
 }
 
-impl BakedTables for Felt {
+impl<S: BakedTables> BakedTables for Felt<S> {
     fn table_word(&self, cursor: TableCursor) -> Option<u32> {
         self.0.table_word(cursor)
     }

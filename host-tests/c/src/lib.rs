@@ -23,6 +23,7 @@ mod pointers;
 mod protection;
 mod running;
 mod servo;
+mod soft;
 mod starts;
 mod state;
 mod status;

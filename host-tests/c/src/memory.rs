@@ -5,8 +5,10 @@ use crate::handle::Handle;
 use crate::link::Listening;
 use crate::pair::Paired;
 use crate::servo::{SERVO_WORDS, Started};
+use crate::soft::Softened;
 use crate::tracker::Tracking;
 use palpate_core::body::{Edge, Face};
+use palpate_core::field::Mode;
 
 /// Whether words are of 32 bits, as on a microcontroller, or of 64, as on most hosts.
 const NARROW: bool = size_of::<usize>() == 4;
@@ -17,6 +19,10 @@ pub const FACE_WORDS: usize = if NARROW { 57 } else { 45 };
 pub const EDGE_WORDS: usize = if NARROW { 13 } else { 9 };
 /// Words of a body.
 pub const BODY_WORDS: usize = if NARROW { 24 } else { 20 };
+/// Words of a mode in the buffer of a body that gives way.
+pub const MODE_WORDS: usize = if NARROW { 43 } else { 22 };
+/// Words of a body that gives way.
+pub const SOFT_BODY_WORDS: usize = if NARROW { 84 } else { 56 };
 /// Words of a tracker.
 pub const TRACKER_WORDS: usize = if NARROW { 76 } else { 40 };
 /// Words of a pair.
@@ -32,6 +38,8 @@ const fn holds<T>(words: usize) {
 const _: () = holds::<Face>(FACE_WORDS);
 const _: () = holds::<Edge>(EDGE_WORDS);
 const _: () = holds::<Handle<Loaded>>(BODY_WORDS);
+const _: () = holds::<Mode>(MODE_WORDS);
+const _: () = holds::<Handle<Softened>>(SOFT_BODY_WORDS);
 const _: () = holds::<Handle<Tracking>>(TRACKER_WORDS);
 const _: () = holds::<Handle<Paired>>(PAIR_WORDS);
 const _: () = holds::<Handle<Started>>(SERVO_WORDS);

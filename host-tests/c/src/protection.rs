@@ -4,7 +4,7 @@ use crate::felt::Felt;
 use crate::pointers::Plain;
 use crate::status::Status;
 use palpate_core::device::{Device, Endurance, PolarityCheck, Protection, SupplyRange};
-use palpate_core::servo::{Config, Guard, Guarded, Servo, Unguarded};
+use palpate_core::servo::{Config, Guard, Guarded, Servo, Surface, Unguarded};
 
 /// Thermal limits of a motor's winding.
 #[derive(Clone, Copy)]
@@ -37,12 +37,12 @@ pub trait Guarding<const JOINTS: usize> {
     type Guard: Guard<JOINTS> + Copy + 'static;
 
     /// The loop with its guard.
-    fn servo<K>(
+    fn servo<K, S: Surface>(
         &self,
         device: &'static Device<K, JOINTS>,
-        body: &'static Felt,
+        body: &'static Felt<S>,
         config: Config<JOINTS>,
-    ) -> Result<Servo<'static, Felt, K, JOINTS, Self::Guard>, Status>
+    ) -> Result<Servo<'static, Felt<S>, K, JOINTS, Self::Guard>, Status>
     where
         K: palpate_core::device::Kinematics<JOINTS>;
 }
@@ -53,12 +53,12 @@ pub struct Unprotected;
 impl<const JOINTS: usize> Guarding<JOINTS> for Unprotected {
     type Guard = Unguarded;
 
-    fn servo<K>(
+    fn servo<K, S: Surface>(
         &self,
         device: &'static Device<K, JOINTS>,
-        body: &'static Felt,
+        body: &'static Felt<S>,
         config: Config<JOINTS>,
-    ) -> Result<Servo<'static, Felt, K, JOINTS>, Status>
+    ) -> Result<Servo<'static, Felt<S>, K, JOINTS>, Status>
     where
         K: palpate_core::device::Kinematics<JOINTS>,
     {
@@ -69,12 +69,12 @@ impl<const JOINTS: usize> Guarding<JOINTS> for Unprotected {
 impl<const JOINTS: usize> Guarding<JOINTS> for ProtectionNumbers {
     type Guard = Guarded<JOINTS>;
 
-    fn servo<K>(
+    fn servo<K, S: Surface>(
         &self,
         device: &'static Device<K, JOINTS>,
-        body: &'static Felt,
+        body: &'static Felt<S>,
         config: Config<JOINTS>,
-    ) -> Result<Servo<'static, Felt, K, JOINTS, Guarded<JOINTS>>, Status>
+    ) -> Result<Servo<'static, Felt<S>, K, JOINTS, Guarded<JOINTS>>, Status>
     where
         K: palpate_core::device::Kinematics<JOINTS>,
     {

@@ -4,17 +4,17 @@ use crate::felt::Felt;
 use crate::homing::HomingNumbers;
 use crate::state::{MotorOutput, StateNumbers, report};
 use crate::status::Status;
-use palpate_core::body::BodyWitness;
 use palpate_core::device::{Counts, Kinematics};
-use palpate_core::servo::{Event, Guard, Input, ResetReason, Servo, ServoState};
+use palpate_core::field::MAX_MODES;
+use palpate_core::servo::{Event, Guard, Input, ResetReason, Servo, ServoState, Surface, Tracked as _};
 use palpate_core::wire::Report;
 
 /// A loop and its state.
-pub struct Loop<K: 'static, const JOINTS: usize, G: Guard<JOINTS>> {
+pub struct Loop<K: 'static, const JOINTS: usize, G: Guard<JOINTS>, S: Surface + 'static> {
     /// The loop.
-    pub servo: Servo<'static, Felt, K, JOINTS, G>,
+    pub servo: Servo<'static, Felt<S>, K, JOINTS, G>,
     /// Its state.
-    pub state: ServoState<JOINTS, BodyWitness, G::State>,
+    pub state: ServoState<JOINTS, S::Witness, G::State>,
     /// Why the chip was reset.
     pub reset: ResetReason,
 }
@@ -41,11 +41,18 @@ pub trait Running {
     fn output(&self) -> MotorOutput;
     /// The whole state, as numbers.
     fn state(&self) -> StateNumbers;
-    /// The same for the wire.
+    /// `q` of each mode, metres, of a body that has any.
+    fn modes(&self) -> Option<[f32; MAX_MODES]>;
+    /// The state for the wire.
     fn report(&self, instructions: u32) -> Report;
 }
 
-impl<K: Kinematics<JOINTS> + Copy, const JOINTS: usize, G: Guard<JOINTS> + Copy> Running for Loop<K, JOINTS, G> {
+impl<K, const JOINTS: usize, G, S> Running for Loop<K, JOINTS, G, S>
+where
+    K: Kinematics<JOINTS> + Copy,
+    G: Guard<JOINTS> + Copy,
+    S: Surface,
+{
     fn tick(&mut self, sensed: Sensed<'_>) -> Result<(), Status> {
         let input = match sensed {
             Sensed::Counts { counts, enable } => {
@@ -83,6 +90,10 @@ impl<K: Kinematics<JOINTS> + Copy, const JOINTS: usize, G: Guard<JOINTS> + Copy>
 
     fn state(&self) -> StateNumbers {
         StateNumbers::of(&self.state)
+    }
+
+    fn modes(&self) -> Option<[f32; MAX_MODES]> {
+        self.state.witness().modes()
     }
 
     fn report(&self, instructions: u32) -> Report {

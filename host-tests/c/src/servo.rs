@@ -1,28 +1,76 @@
 //! The servo loop: started with a mechanism of any kind, ticked without a word of which.
 
 use crate::body::{Loaded, Standing};
+use crate::felt::Felt;
 use crate::handle::{Handle, Kind};
 use crate::mechanisms::MechanismNumbers;
 use crate::numbers::{DeviceNumbers, SettingsNumbers};
 use crate::pointers::{checked_mut, get, put, row};
 use crate::protection::Guarding;
 use crate::running::{Loop, Running, Sensed};
+use crate::soft::SoftStanding;
 use crate::state::{MotorOutput, StateNumbers};
 use crate::status::{Status, code};
 use core::mem::MaybeUninit;
 use core::ptr::{NonNull, addr_of, addr_of_mut};
+use palpate_core::body::Body;
 use palpate_core::device::{Device, Kinematics};
-use palpate_core::servo::{Config, Event, Guard, ResetReason};
+use palpate_core::servo::{Config, Event, Guard, ResetReason, Surface};
 
 /// Words of a servo's handle: of 32 bits on a microcontroller, of 64 on most hosts.
 pub const SERVO_WORDS: usize = if size_of::<usize>() == 4 { 500 } else { 260 };
 /// Words that hold any mechanism's device, loop and state: a handle's, without its head.
 const WORDS: usize = SERVO_WORDS - 6;
 
+/// A handle that a loop can render.
+pub trait Rendered: Kind {
+    /// The surface of the loop.
+    type Surface: Surface + 'static;
+
+    /// To stand on it.
+    ///
+    /// # Safety
+    /// As [`Handle::get`], for as long as anything stands on it.
+    unsafe fn stand(place: *const Handle<Self>) -> Result<(Ground, &'static Felt<Self::Surface>), Status>;
+}
+
+/// The handle that a loop stands on.
+#[derive(Clone, Copy)]
+pub enum Ground {
+    Rigid(Standing),
+    Soft(SoftStanding),
+}
+
+impl Ground {
+    /// Whether it is still there.
+    ///
+    /// # Safety
+    /// As [`Handle::get`].
+    unsafe fn check(self) -> Result<(), Status> {
+        // SAFETY: by the caller's promise.
+        unsafe {
+            match self {
+                Self::Rigid(standing) => standing.body().map(|_| ()),
+                Self::Soft(standing) => standing.check(),
+            }
+        }
+    }
+}
+
+impl Rendered for Loaded {
+    type Surface = Body<'static>;
+
+    unsafe fn stand(place: *const Handle<Self>) -> Result<(Ground, &'static Felt), Status> {
+        // SAFETY: by the caller's promise.
+        let (standing, felt) = unsafe { Standing::on(place) }?;
+        Ok((Ground::Rigid(standing), felt))
+    }
+}
+
 /// A loop in the caller's memory.
 #[repr(C)]
 pub struct Started {
-    standing: Standing,
+    ground: Ground,
     /// The loop, which lies in `memory`: a handle that has moved is none.
     running: NonNull<dyn Running>,
     memory: MaybeUninit<[usize; WORDS]>,
@@ -34,17 +82,17 @@ impl Kind for Started {
 
 /// A device, and the loop that refers to it.
 #[repr(C)]
-struct Whole<K: 'static, const JOINTS: usize, G: Guard<JOINTS>> {
+struct Whole<K: 'static, const JOINTS: usize, G: Guard<JOINTS>, S: Surface + 'static> {
     device: Device<K, JOINTS>,
-    running: Loop<K, JOINTS, G>,
+    running: Loop<K, JOINTS, G, S>,
 }
 
 /// Parts of a loop, apart from its mechanism.
-pub struct Parts<P> {
+pub struct Parts<P, B> {
     /// The device's numbers.
     pub device: *const DeviceNumbers,
     /// The rendered body.
-    pub body: *const Handle<Loaded>,
+    pub body: *const Handle<B>,
     /// The settings.
     pub settings: *const SettingsNumbers,
     /// How it is guarded.
@@ -57,36 +105,36 @@ pub struct Parts<P> {
 ///
 /// # Safety
 /// As the header says of all functions.
-pub unsafe fn begin<M: MechanismNumbers, const JOINTS: usize, P: Guarding<JOINTS>>(
+pub unsafe fn begin<M: MechanismNumbers, const JOINTS: usize, P: Guarding<JOINTS>, B: Rendered>(
     servo: *mut Handle<Started>,
     servo_bytes: usize,
     mechanism: *const M,
-    parts: Parts<P>,
+    parts: Parts<P, B>,
 ) -> Result<(), Status>
 where
     M::Mechanism: Kinematics<JOINTS> + Copy + 'static,
 {
-    const { assert!(size_of::<Whole<M::Mechanism, JOINTS, P::Guard>>() <= size_of::<[usize; WORDS]>()) };
-    const { assert!(align_of::<Whole<M::Mechanism, JOINTS, P::Guard>>() <= align_of::<usize>()) };
+    const { assert!(size_of::<Whole<M::Mechanism, JOINTS, P::Guard, B::Surface>>() <= size_of::<[usize; WORDS]>()) };
+    const { assert!(align_of::<Whole<M::Mechanism, JOINTS, P::Guard, B::Surface>>() <= align_of::<usize>()) };
     let Parts { device, body, settings, guarding, reset } = parts;
     // SAFETY: the caller's memory for the loop.
     let place = unsafe { Handle::vacate(servo, servo_bytes) }?;
     // SAFETY: the caller's numbers.
     let (mechanism, device, settings) = unsafe { (get(mechanism)?, get(device)?, get(settings)?) };
     // SAFETY: the caller's body, which stays.
-    let (standing, body) = unsafe { Standing::on(body) }?;
+    let (ground, body) = unsafe { B::stand(body) }?;
     let device: Device<M::Mechanism, JOINTS> = device.device(mechanism.mechanism()?)?;
     let reset = ResetReason::ALL.into_iter().find(|known| *known as u32 == reset).ok_or(Status::OutOfRange)?;
     // Made first, so that what lies in the memory is looked at by nobody until all of it is there.
-    let dangling = NonNull::<Loop<M::Mechanism, JOINTS, P::Guard>>::dangling();
-    let started = Started { standing, running: dangling, memory: MaybeUninit::uninit() };
+    let dangling = NonNull::<Loop<M::Mechanism, JOINTS, P::Guard, B::Surface>>::dangling();
+    let started = Started { ground, running: dangling, memory: MaybeUninit::uninit() };
     // SAFETY: the place that was vacated. No reference to the whole value is made from here on: only to its parts.
     let value = unsafe {
         Handle::fill(place, started);
         Handle::live(place)?.cast_mut()
     };
     // SAFETY: within the value; by the assertions above it is large enough and aligned.
-    let whole = unsafe { addr_of_mut!((*value).memory) }.cast::<Whole<M::Mechanism, JOINTS, P::Guard>>();
+    let whole = unsafe { addr_of_mut!((*value).memory) }.cast::<Whole<M::Mechanism, JOINTS, P::Guard, B::Surface>>();
     // SAFETY: as above; the device is not written again, and stays for as long as the loop.
     let device: &'static Device<M::Mechanism, JOINTS> = unsafe {
         addr_of_mut!((*whole).device).write(device);
@@ -119,12 +167,12 @@ where
 /// As [`Handle::get_mut`].
 pub unsafe fn running<'a>(servo: *mut Handle<Started>) -> Result<&'a mut dyn Running, Status> {
     // SAFETY: by the caller's promise. Parts of the value are looked at, never all of it at once.
-    let (standing, running) = unsafe {
+    let (ground, running) = unsafe {
         let value = Handle::live(servo)?;
-        (addr_of!((*value).standing).read(), addr_of!((*value).running).read())
+        (addr_of!((*value).ground).read(), addr_of!((*value).running).read())
     };
     // SAFETY: the body it was started on, which the caller keeps.
-    unsafe { standing.body() }?;
+    unsafe { ground.check() }?;
     // SAFETY: a handle that is live holds a loop, where it was made.
     Ok(unsafe { &mut *running.as_ptr() })
 }

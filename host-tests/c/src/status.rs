@@ -1,7 +1,7 @@
 //! Result of a call, as a code and as a sentence.
 
 use core::ffi::{CStr, c_char};
-use palpate_core::body::FileError;
+use palpate_core::body::{FileError, SoftError};
 use palpate_core::device::{DeviceError, HomingError};
 use palpate_core::servo::{ConfigError, Fault, ProtectionError, RenderingError, SafetyError, SettingsError};
 
@@ -57,6 +57,11 @@ pub enum Status {
     HomingStop = 74,
     HomingTimeout = 75,
     HomingStarted = 76,
+    SoftModes = 80,
+    SoftMode = 81,
+    SoftMotion = 82,
+    SoftRate = 83,
+    SoftNone = 84,
 }
 
 impl Status {
@@ -110,10 +115,17 @@ impl Status {
             Self::HomingStop => c"a stop needs an angle, a speed, and a positive torque, clearance and travel",
             Self::HomingTimeout => c"homing must be given more time than it is to hold still",
             Self::HomingStarted => c"homing must be set before the first tick",
+            Self::SoftModes => c"a body that gives way has one to eight modes",
+            Self::SoftMode => c"a mode's limit and bounds must not be negative, nor its bump's radius",
+            Self::SoftMotion => {
+                c"a mode needs a positive stiffness, no negative mass or damping, and at most 256 radians a tick"
+            }
+            Self::SoftRate => c"the rate of the modes must be a positive number of Hz",
+            Self::SoftNone => c"the loop's body has no modes",
         }
     }
 
-    const ALL: [Self; 48] = [
+    const ALL: [Self; 53] = [
         Self::Ok,
         Self::Null,
         Self::Misaligned,
@@ -162,6 +174,11 @@ impl Status {
         Self::HomingStop,
         Self::HomingTimeout,
         Self::HomingStarted,
+        Self::SoftModes,
+        Self::SoftMode,
+        Self::SoftMotion,
+        Self::SoftRate,
+        Self::SoftNone,
     ];
 }
 
@@ -282,6 +299,19 @@ impl From<HomingError> for Status {
             HomingError::TimeoutTicks => Self::HomingTimeout,
             // No loop of this library looks for a field.
             HomingError::Field => Self::OutOfRange,
+        }
+    }
+}
+
+impl From<SoftError> for Status {
+    fn from(error: SoftError) -> Self {
+        match error {
+            SoftError::Modes => Self::SoftModes,
+            SoftError::Mode { .. } => Self::SoftMode,
+            SoftError::Motion { .. } => Self::SoftMotion,
+            SoftError::Rate => Self::SoftRate,
+            // Each mode has its motion.
+            _ => Self::OutOfRange,
         }
     }
 }

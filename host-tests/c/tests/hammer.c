@@ -21,9 +21,11 @@ static size_t file_bytes;
 static palpate_file_info info;
 static palpate_body body;
 static void *buffer;
+static palpate_soft_body soft;
+static palpate_word room[2 * PALPATE_MODE_WORDS];
 static palpate_tracker tracker;
 static palpate_pair pair;
-static palpate_servo servo;
+static palpate_servo servo, soft_servo;
 static palpate_receiver receiver;
 
 static const palpate_serial_arm arm = {0.08f, 0.205f, 0.245f, {0.22f, 0, 0.08f}, {0.15f, 0.04f}};
@@ -35,6 +37,10 @@ static void smooth(const palpate_touched *touched, float *force)
 {
     (void)touched, force[0] = force[1] = force[2] = 0;
 }
+static const palpate_mode modes[2] = {
+    {.linear = {{16.7f}}, .limit = 6e-3f, .motion = 1.01f, .stretch = 16.8f, .stiffness = 500},
+    {.linear = {{0}, {0, 16.7f}}, .bump_direction = {0, 0, 1}, .bump_radius = 0.01f, .limit = 1e-3f, .motion = 2,
+     .stretch = 300, .bend = 6e4f, .twist = 1e7f, .mass = 0.01f, .damping = 0.5f, .stiffness = 700}};
 static const palpate_pose pose = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0.2f, 0, 0}, {0, 0, 0}, {0, 0, 0}};
 
 static void stop(const char *what, palpate_status status)
@@ -92,6 +98,20 @@ static void use(const palpate_body *spoiled)
         good("step", palpate_step(&one, probe, &touch));
         good("closest", palpate_closest(spoiled, probe, &located));
     }
+}
+
+/* A loop on the soft body, ticked anywhere. */
+static void press(void)
+{
+    palpate_output output;
+    good("a soft loop", palpate_servo_start_serial_arm_soft(&soft_servo, sizeof soft_servo, &arm, &device, &soft,
+                                                            &settings, 0));
+    for (int i = 0; i < 400; i++) {
+        const int32_t counts[3] = {(int32_t)any(200) - 100, (int32_t)any(200) - 100, (int32_t)any(200) - 100};
+        good("a soft tick", palpate_servo_tick(&soft_servo, counts, 3, 1, &output));
+    }
+    float q[PALPATE_MAX_MODES];
+    good("modes", palpate_servo_modes(&soft_servo, q));
 }
 
 static unsigned accepted;
@@ -347,6 +367,49 @@ static palpate_status bad_homing(void)
     return status;
 }
 
+static palpate_status bad_soft(void)
+{
+    palpate_soft_body *one = malloc(sizeof *one);
+    uint32_t count = 1 + any(2);
+    palpate_mode *spoiled = malloc(count * sizeof *spoiled);
+    memcpy(spoiled, modes, count * sizeof *spoiled);
+    size_t bytes = count * PALPATE_MODE_WORDS * sizeof(palpate_word);
+    palpate_word *place = malloc(bytes);
+    palpate_mode *mode = spoiled + any(count);
+    void *no_body = no_handle(&body, sizeof body);
+    const palpate_body *on = &body;
+    float rate = 4000, q[PALPATE_MAX_MODES];
+    palpate_status status = PALPATE_OK;
+    switch (any(14)) {
+    case 0: ((float *)mode)[any(sizeof *mode / sizeof(float))] = bad_float(); break;
+    case 1: (any(2) ? &mode->limit : &mode->motion)[any(2)] = -1; break;
+    case 2: mode->bump_radius = -1; break;
+    case 3: (any(2) ? &mode->mass : &mode->damping)[0] = -1; break;
+    case 4: mode->stiffness = any(2) ? 0 : -1; break;
+    case 5: mode->mass = 1e-20f; break;
+    case 6: rate = any(2) ? bad_float() : -(float)any(2); break;
+    case 7: count = any(2) ? 0 : 9 + any(1u << 30); break;
+    case 8: bytes = any(count * 160); break; /* a mode takes 172 */
+    case 9: on = any(2) ? no_body : NULL; break;
+    case 10: status = palpate_soft_body_load(one, any(sizeof *one / 2), on, spoiled, count, rate, place, bytes); break;
+    case 11:
+        status = palpate_soft_body_load(one, sizeof *one, on, any(2) ? NULL : ASKEW(spoiled), 1, rate, place, bytes);
+        break;
+    case 12:
+        status = palpate_soft_body_load(one, sizeof *one, on, spoiled, 1, rate, any(2) ? NULL : ASKEW(place), bytes);
+        break;
+    default: status = palpate_servo_modes(any(2) ? &servo : NULL, any(2) ? q : ASKEW(q)); break;
+    }
+    if (status == PALPATE_OK) status = palpate_soft_body_load(one, sizeof *one, on, spoiled, count, rate, place, bytes);
+    if (palpate_servo_start_serial_arm_soft(&soft_servo, sizeof soft_servo, &arm, &device, one, &settings, 0)
+        == PALPATE_OK) stop("a refused soft body was taken", status);
+    free(no_body);
+    free(place);
+    free(spoiled);
+    free(one);
+    return status;
+}
+
 static palpate_status bad_tick(void)
 {
     const int32_t counts[3] = {0, 0, 0};
@@ -423,18 +486,21 @@ int main(int count, char **arguments)
     good("start", palpate_start(&tracker, sizeof tracker, &body));
     good("pair", palpate_pair_start(&pair, sizeof pair, &body, 0, &body, 0));
     good("servo", start_arm(&servo, sizeof servo, &arm, &device, &body, &settings, 0));
+    good("soft", palpate_soft_body_load(&soft, sizeof soft, &body, modes, 2, settings.rate, room, sizeof room));
+    press();
     good("receiver", palpate_receiver_start(&receiver, sizeof receiver));
     use(&body);
 
     palpate_status (*const ways[])(void) = {spoiled_file, bad_load, bad_info, bad_probe, bad_start,
-                                            bad_pair, bad_servo, bad_protection, bad_homing, bad_tick, bad_receiver};
-    unsigned long of[80] = {0}, refused = 0;
+                                            bad_pair, bad_servo, bad_protection, bad_homing, bad_soft, bad_tick,
+                                            bad_receiver};
+    unsigned long of[96] = {0}, refused = 0;
     while (refused < calls) {
         uint32_t way = any(sizeof ways / sizeof ways[0]);
         unsigned before = accepted;
         palpate_status status = ways[way]();
         if (accepted != before) continue;
-        if (status <= PALPATE_OK || status >= 80) {
+        if (status <= PALPATE_OK || status >= 96) {
             printf("hammer: way %u was not refused: %d\n", way, (int)status);
             return 1;
         }
@@ -443,7 +509,8 @@ int main(int count, char **arguments)
     }
     /* What is good still is. */
     use(&body);
-    for (int status = 1; status < 80; status++) {
+    press();
+    for (int status = 1; status < 96; status++) {
         if (of[status]) printf("  %7lu  %s\n", of[status], palpate_status_text(status));
     }
     printf("hammer: %lu calls with bad arguments, an error code each; %u files that differ were good ones\n", refused,

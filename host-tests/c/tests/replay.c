@@ -1,10 +1,16 @@
 /* A loop with everything: protection, virtual tool, texture, passivity control. It is fed the counts of a run and
-   prints the hash of its states, how many ticks touched, and how it ended.
+   prints the hash of its states, how many ticks touched, and how it ended. With MODES_FILE the body gives way, and forces
+   and modes are in the hash.
 
    replay FILE.palp NUMBERS COUNTS ENABLE_AT */
 #include "palpate.h"
+#ifdef MODES_FILE
+#include MODES_FILE
+#endif
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static palpate_body body;
 static palpate_servo servo;
@@ -25,6 +31,58 @@ static void good(palpate_status status)
     printf("replay: %s\n", palpate_status_text(status));
     exit(1);
 }
+
+static uint32_t hash;
+
+static void mix(uint32_t word)
+{
+    hash = (hash ^ word) * 0x01000193u;
+}
+
+#ifdef MODES_FILE
+static palpate_soft_body soft;
+static palpate_word room[MODES * PALPATE_MODE_WORDS];
+
+static palpate_status load(const palpate_mode *given, size_t count, float rate)
+{
+    return palpate_soft_body_load(&soft, sizeof soft, &body, given, count, rate, room, sizeof room);
+}
+
+/* Each refusal once; the loop on what was refused is none. */
+static void refusals(void)
+{
+    static const struct { size_t at; float number; palpate_status status; } bad[] = {
+        {offsetof(palpate_mode, quadratic), NAN, PALPATE_NOT_FINITE},
+        {offsetof(palpate_mode, limit), -1e-3f, PALPATE_SOFT_MODE},
+        {offsetof(palpate_mode, bend), -1, PALPATE_SOFT_MODE},
+        {offsetof(palpate_mode, bump_radius), -1e-3f, PALPATE_SOFT_MODE},
+        {offsetof(palpate_mode, stiffness), 0, PALPATE_SOFT_MOTION},
+        {offsetof(palpate_mode, damping), -1, PALPATE_SOFT_MOTION},
+        {offsetof(palpate_mode, mass), 1e-12f, PALPATE_SOFT_MOTION},
+    };
+    for (size_t index = 0; index < sizeof bad / sizeof bad[0]; index++) {
+        palpate_mode spoiled[MODES];
+        memcpy(spoiled, modes, sizeof modes);
+        memcpy((char *)&spoiled[MODES - 1] + bad[index].at, &bad[index].number, sizeof(float));
+        if (load(spoiled, MODES, 4000) != bad[index].status) exit(10 + (int)index);
+    }
+    if (load(modes, 0, 4000) != PALPATE_SOFT_MODES || load(modes, 9, 4000) != PALPATE_SOFT_MODES) exit(20);
+    if (load(modes, MODES, -4000) != PALPATE_SOFT_RATE || load(modes, MODES, NAN) != PALPATE_SOFT_RATE) exit(21);
+    if (palpate_soft_body_load(&soft, sizeof soft, &body, modes, MODES, 4000, room, sizeof room - sizeof room[0] * 8)
+        != PALPATE_TOO_SMALL) exit(22);
+    palpate_servo one;
+    const palpate_serial_arm arm = {0};
+    const palpate_device device = {0};
+    const palpate_settings settings = {0};
+    if (palpate_servo_start_serial_arm_soft(&one, sizeof one, &arm, &device, &soft, &settings, 0)
+        != PALPATE_NOT_READY) exit(23);
+}
+#define START palpate_servo_start_serial_arm_soft_protected
+#define BODY &soft
+#else
+#define START palpate_servo_start_serial_arm_protected
+#define BODY &body
+#endif
 
 /* Along u, more to the ends of the patch. */
 static void bowl(const palpate_touched *touched, float *force)
@@ -68,12 +126,16 @@ int main(int count, char **arguments)
     good(palpate_file_head(file, file_bytes, &info));
     void *buffer = malloc(info.buffer_bytes);
     good(palpate_body_load(&body, sizeof body, file, file_bytes, buffer, info.buffer_bytes));
-    if (palpate_servo_start_serial_arm_protected(&servo, sizeof servo, &arm, &device, &body, &settings, &protection,
-                                                 PALPATE_RESET_POWER_ON) != PALPATE_SETTINGS_TEXTURE) return 3;
+#ifdef MODES_FILE
+    refusals();
+    good(load(modes, MODES, settings.rate));
+#endif
+    if (START(&servo, sizeof servo, &arm, &device, BODY, &settings, &protection, PALPATE_RESET_POWER_ON)
+        != PALPATE_SETTINGS_TEXTURE) return 3;
     good(palpate_texture(bowl));
-    good(palpate_servo_start_serial_arm_protected(&servo, sizeof servo, &arm, &device, &body, &settings, &protection,
-                                                  PALPATE_RESET_POWER_ON));
-    uint32_t hash = 0, touched = 0;
+    good(START(&servo, sizeof servo, &arm, &device, BODY, &settings, &protection, PALPATE_RESET_POWER_ON));
+    uint32_t touched = 0;
+    float q[PALPATE_MAX_MODES];
     palpate_output output = {0};
     for (size_t tick = 0; tick < ticks; tick++) {
         palpate_state state;
@@ -81,9 +143,24 @@ int main(int count, char **arguments)
         good(palpate_servo_supply(&servo, 24000, &output));
         good(palpate_servo_tick(&servo, counts + 3 * tick, 3, tick >= enable_at, &output));
         good(palpate_servo_state(&servo, &state));
-        hash = (hash ^ state.digest) * 0x01000193u;
+        mix(state.digest);
+#ifdef MODES_FILE
+        uint32_t words[PALPATE_MAX_MODES + 3];
+        good(palpate_servo_modes(&servo, q));
+        memcpy(words, q, sizeof q), memcpy(words + PALPATE_MAX_MODES, state.force, sizeof state.force);
+        for (int index = 0; index < PALPATE_MAX_MODES + 3; index++) mix(words[index]);
+#endif
         touched += state.contact == 2;
     }
+#ifdef MODES_FILE
+    /* Other modes end the loop. */
+    good(load(modes, MODES - 1, settings.rate));
+    if (palpate_servo_tick(&servo, counts, 3, 1, &output) != PALPATE_NOT_READY || output.drives) return 4;
+    good(load(modes, MODES, settings.rate));
+    good(palpate_servo_tick(&servo, counts + 3 * (ticks - 1), 3, 1, &output));
+#else
+    if (palpate_servo_modes(&servo, q) != PALPATE_SOFT_NONE) return 5;
+#endif
     printf("%08x %u %s\n", (unsigned)hash, (unsigned)touched, palpate_fault_text(output.fault));
     return 0;
 }

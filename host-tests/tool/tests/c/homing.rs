@@ -122,7 +122,7 @@ fn a_loop_finds_its_joints_as_in_rust() {
     }
     let folder = tempfile::tempdir().expect("a folder");
     let path = |name: &str| folder.path().join(name);
-    program("tests/home.c", folder.path());
+    program("tests/home.c", folder.path(), &[]);
     // Arm and device, without what protects it.
     let numbers = numbers();
     fs::write(path("numbers"), bytemuck::cast_slice::<f32, u8>(&numbers)).expect("numbers");

@@ -58,10 +58,15 @@ pub fn with_capped_box<T>(then: impl FnOnce(&Body<'_>) -> T) -> T {
 }
 
 /// A program of the host from a source of the C crate, linked with the library.
-pub fn program(source: &str, folder: &Path) -> Command {
+pub fn program(source: &str, folder: &Path, options: &[String]) -> Command {
     let mut gcc = in_c::compiler(in_c::Core::Host, "gcc").expect("in the repository");
     let made = folder.join("program");
-    gcc.args(["-std=c11"]).arg(file(source)).arg(library(in_c::Core::Host)).args(["-lm", "-o"]).arg(&made);
+    gcc.args(["-std=c11"])
+        .args(options)
+        .arg(file(source))
+        .arg(library(in_c::Core::Host))
+        .args(["-lm", "-o"])
+        .arg(&made);
     run(&mut gcc);
     Command::new(made)
 }
