@@ -2,7 +2,8 @@
 //!
 //! Vertices in one place are merged and edges of zero length are left out. Where faces meet along separate edges, a
 //! free edge is cut at the free vertices on it, and two that then coincide become one: so the start and direction of
-//! each face's own edges do not matter. A solid that is still open is refused with face, edge and millimetres.
+//! each face's own edges do not matter. A face that is narrower than a body's tables tell apart is left out, and its
+//! long edges become one. A solid that is still open is refused with face, edge and millimetres.
 
 use crate::error::ImportError;
 use crate::part::{Edge, Part, Use};
@@ -11,6 +12,8 @@ use std::collections::{HashMap, HashSet};
 
 /// Millimetres below which two points are one, however exact a file claims to be.
 const LEAST: f64 = 1e-6;
+/// In sizes of the body, points that are nearer are one to its tables (`palpate_bake::topology::TOLERANCE`).
+const ONE_IN_TABLES: f64 = 1e-6;
 /// Shares of an edge at which it is compared with another.
 const COMPARED: i32 = 16;
 
@@ -22,6 +25,15 @@ const COMPARED: i32 = 16;
 pub fn sew(part: &mut Part, tolerance: f64) -> Result<(), ImportError> {
     let mut exact = part.clone();
     if sewn(&mut exact, LEAST).is_ok() {
+        // What a table cannot tell apart is one, if the part closes then.
+        let near = 2.0 * ONE_IN_TABLES * size(&exact);
+        let is_short = |edge: &usize| exact.edges[*edge].length() <= near;
+        if near < tolerance && used(&exact).any(|edge| is_short(&edge)) {
+            let mut merged = exact.clone();
+            if sewn(&mut merged, near).is_ok() {
+                exact = merged;
+            }
+        }
         *part = exact;
         return Ok(());
     }
@@ -31,12 +43,24 @@ pub fn sew(part: &mut Part, tolerance: f64) -> Result<(), ImportError> {
 fn sewn(part: &mut Part, near: f64) -> Result<(), ImportError> {
     merge_vertices(part, near);
     leave_out_slivers(part, near);
+    leave_out_narrow_faces(part, near);
     check_loops(part, near)?;
     if !free(part).is_empty() {
         cut_at_vertices(part, near);
         join(part, near);
     }
     refuse_gaps(part, near)
+}
+
+/// The edges of all faces.
+fn used(part: &Part) -> impl Iterator<Item = usize> {
+    part.faces.iter().flat_map(|face| face.loops.iter().flatten().map(|used| used.edge))
+}
+
+/// The longest side of a box about the vertices, millimetres.
+fn size(part: &Part) -> f64 {
+    let all = || part.vertices.iter().copied();
+    (all().fold(DVec3::NEG_INFINITY, DVec3::max) - all().fold(DVec3::INFINITY, DVec3::min)).max_element()
 }
 
 /// The solid of every vertex that a face has.
@@ -89,6 +113,30 @@ fn leave_out_slivers(part: &mut Part, near: f64) {
             outline.retain(|used| !slivers[used.edge]);
         }
     }
+}
+
+/// Faces between two edges that run together: their neighbours' edges are free then, and joined.
+fn leave_out_narrow_faces(part: &mut Part, near: f64) {
+    let (edges, mut names) = (&part.edges, Vec::new());
+    part.faces.retain(|face| {
+        let is_narrow = match &face.loops[..] {
+            [outline] => match outline[..] {
+                // On a surface that closes, the face may be what lies round the other way.
+                [first, second] if first.edge != second.edge && face.surface.closed == [false; 2] => {
+                    let [first, second] = [first, second].map(|used| &edges[used.edge]);
+                    apart(first, second).max(apart(second, first)) <= near
+                }
+                _ => false,
+            },
+            _ => false,
+        };
+        if is_narrow {
+            names.push(face.label());
+        }
+        !is_narrow
+    });
+    part.remarks
+        .extend(names.into_iter().map(|name| format!("healed: {name} is narrower than {near:.6} mm: left out")));
 }
 
 fn check_loops(part: &Part, near: f64) -> Result<(), ImportError> {

@@ -199,6 +199,40 @@ fn a_sliver_of_an_edge_is_left_out() {
     same_as_the_sound_part("sliver", &edited("#19 = EDGE_LOOP('',(#20,#55,", sliver));
 }
 
+/// A face 0.03 µm wide, which the tables of a body this large cannot hold.
+#[test]
+fn a_sliver_of_a_face_is_left_out() {
+    let mut text = whole();
+    for (from, to) in [
+        ("#348 = EDGE_LOOP('',(#349,#350,", "#348 = EDGE_LOOP('',(#349,#9005,#350,"),
+        ("#215 = EDGE_LOOP('',(#216,#217,", "#215 = EDGE_LOOP('',(#216,#9006,#217,"),
+        ("#139 = EDGE_LOOP('',(#140,#163,", "#139 = EDGE_LOOP('',(#140,#9007,"),
+        ("#141 = EDGE_CURVE('',#22,", "#141 = EDGE_CURVE('',#9000,"),
+        ("#165 = EDGE_CURVE('',#24,", "#165 = EDGE_CURVE('',#9001,"),
+        ("#16 = CLOSED_SHELL('',(", "#16 = CLOSED_SHELL('',(#9020,"),
+        ("#16 = ", SLIVER),
+    ] {
+        assert!(text.contains(from), "{from}");
+        text = text.replacen(from, to, 1);
+    }
+    let healed = same_as_the_sound_part("sliver-face", &text);
+    assert!(healed.report.iter().any(|line| line.contains("(#9020) is narrower than")), "{:?}", healed.report);
+}
+
+/// Between the edge #21 and another 3e-5 mm beside it, in the plane #44.
+const SLIVER: &str = "#9000 = VERTEX_POINT('',#9002);\n#9001 = VERTEX_POINT('',#9003);\n\
+    #9002 = CARTESIAN_POINT('',(-19.99997,-15.,-10.));\n#9003 = CARTESIAN_POINT('',(-19.99997,-15.,10.));\n\
+    #9005 = ORIENTED_EDGE('',*,*,#9010,.T.);\n#9006 = ORIENTED_EDGE('',*,*,#9011,.T.);\n\
+    #9007 = ORIENTED_EDGE('',*,*,#9012,.T.);\n\
+    #9010 = EDGE_CURVE('',#22,#9000,#9013,.T.);\n#9011 = EDGE_CURVE('',#24,#9001,#9014,.T.);\n\
+    #9012 = EDGE_CURVE('',#9000,#9001,#9015,.T.);\n\
+    #9013 = LINE('',#9002,#9016);\n#9014 = LINE('',#9003,#9016);\n#9015 = LINE('',#9002,#9017);\n\
+    #9016 = VECTOR('',#9018,1.);\n#9017 = VECTOR('',#9019,1.);\n\
+    #9018 = DIRECTION('',(1.,0.,0.));\n#9019 = DIRECTION('',(0.,0.,1.));\n\
+    #9020 = ADVANCED_FACE('',(#9021),#44,.F.);\n#9021 = FACE_BOUND('',#9022,.F.);\n\
+    #9022 = EDGE_LOOP('',(#9023,#9024,#9006,#9025));\n#9023 = ORIENTED_EDGE('',*,*,#9010,.F.);\n\
+    #9024 = ORIENTED_EDGE('',*,*,#21,.T.);\n#9025 = ORIENTED_EDGE('',*,*,#9012,.F.);\n#16 = ";
+
 #[test]
 fn a_face_that_lies_the_wrong_way_round_is_turned() {
     // The face's own sense, then that of its loop alone: there nothing but the loop is to be turned.
