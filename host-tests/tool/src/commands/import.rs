@@ -6,6 +6,7 @@ use super::{bake, parts, progress, table_report};
 use crate::cad::{Importer, TOLERANCE, Wishes};
 use crate::firmware::Progress;
 use crate::models::ModelFile;
+use anyhow::anyhow;
 use clap::Args;
 use std::fs;
 use std::path::PathBuf;
@@ -74,6 +75,17 @@ fn outcome(mut loaded: Loaded, text: &str) -> anyhow::Result<String> {
     Ok(format!("usable: worst-case deviation {deviation} (sampled), {bytes} bytes of flash, fits {boards}"))
 }
 
+/// A fault of several solids together, with the names by which each can be had alone.
+fn one_by_one(fault: anyhow::Error, text: &str) -> anyhow::Error {
+    let names = text.lines().next().and_then(|line| line.split_once("STEP file: ")?.1.rsplit_once(", within"));
+    match names {
+        Some((names, _)) if names.contains(", ") => {
+            anyhow!("{fault:#}; the part has several solids: import one at a time (--solid NAME), of {names}")
+        }
+        _ => fault,
+    }
+}
+
 /// Runs the command.
 ///
 /// # Errors
@@ -87,7 +99,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let wishes = Wishes { tolerance: arguments.tolerance, solid: arguments.solid.clone(), picture };
     let said = importer.import(&arguments.part, &model, &wishes)?;
     let text = fs::read_to_string(&model)?;
-    let loaded = Loaded::of(ModelFile::imported(&arguments.part, text.clone()))?;
+    let loaded =
+        Loaded::of(ModelFile::imported(&arguments.part, text.clone())).map_err(|fault| one_by_one(fault, &text))?;
     if let Some(picture) = &arguments.picture {
         write_whole(picture, &fs::read(&drawn)?)?;
     }
@@ -99,4 +112,18 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     println!("{}", arguments.out.display());
     println!("{}", outcome(loaded, &text)?);
     Ok(ExitCode::SUCCESS)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn several_solids_that_do_not_go_together_can_be_had_one_by_one() {
+        let of = |names| {
+            one_by_one(anyhow!("one curve"), &format!("# imported from a STEP file: {names}, within 0.01 mm\n"))
+        };
+        assert_eq!(of("left").to_string(), "one curve");
+        assert!(of("left, right").to_string().ends_with("one at a time (--solid NAME), of left, right"));
+    }
 }
