@@ -65,6 +65,16 @@ pub enum ModesError {
         /// The range.
         range: &'static str,
     },
+    /// Numbers whose bounds are beyond single precision.
+    #[error(
+        "{file}: {name}: budget, poly, half and radius give a displacement that is too large; check their units: metres"
+    )]
+    TooLarge {
+        /// The file.
+        file: String,
+        /// The mode.
+        name: String,
+    },
     /// No displacement of space.
     #[error("{file}: {name}: no poly: {remedy}")]
     NoField {
@@ -217,7 +227,10 @@ fn parse_all(text: &str, file: &str, model: &Model) -> Result<Vec<(Mode, Motion)
             has_bump.then(|| (DVec3::from_array(mode.bump), DVec3::from_array(mode.at) - model.centre, mode.radius));
         let field = Field::new(poly.map(DVec3::from_array), DVec3::from_array(mode.centre) - model.centre, half);
         let motion = Motion { name, frequency: mode.frequency, mass: mode.mass, damping: mode.damping };
-        Ok((field.baked(bump, raw.budget, hull(model)), motion))
+        let baked = field.baked(bump, raw.budget, hull(model));
+        let fault = || ModesError::TooLarge { file: owned(), name: motion.name.clone() };
+        baked.is_valid().then_some(()).ok_or_else(fault)?;
+        Ok((baked, motion))
     });
     modes.collect()
 }

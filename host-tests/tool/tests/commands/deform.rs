@@ -137,6 +137,11 @@ fn bad_modes_and_columns_are_refused_by_name() -> Result<(), Box<dyn Error>> {
             rows,
             "poly is NaN: must be finite",
         ),
+        (
+            with("budget", "1e300"),
+            rows,
+            "mode \"squash\": budget, poly, half and radius give a displacement that is too",
+        ),
         (with("half", "0.0"), rows, "half is 0: must be above 0"),
         (with("mass", "0.0"), rows, "mass is 0: must be above 0"),
         (good.replacen(&line("poly"), "", 1), rows, "mode \"squash\": no poly: give 10 vectors"),
