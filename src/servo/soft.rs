@@ -92,7 +92,8 @@ impl<'a> SoftBody<'a> {
         let period = 1.0 / rate_hz;
         let mut steps = [ModalStep::ZERO; MAX_MODES];
         let mut index = 0;
-        while index < motion.len() {
+        // `Soft::new` has bounded them: the compiler is to see it, for no image may hold a panic.
+        while index < motion.len() && index < MAX_MODES {
             if !motion[index].is_valid(period) {
                 return Err(SoftError::Motion { mode: index as u8 });
             }
