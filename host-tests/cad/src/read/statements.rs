@@ -279,11 +279,13 @@ pub fn check(statements: &[Statement<'_>], report: &Report, file: &str) -> Resul
     // The first that is bad by itself says more than those that only refer to it.
     let first = of_the_shape().find(|(_, reason)| reason.kind != DropKind::Cascade).or_else(|| of_the_shape().next());
     let Some((id, reason)) = first else { return Ok(()) };
-    let reason = if reason.detail == "via-dangling" {
-        "it refers to an entity that the file does not have, or goes round in a circle".to_owned()
-    } else {
-        reason.to_string()
+    let detail: &str = reason.detail.as_ref();
+    let reason = match detail.strip_prefix("via-") {
+        Some("dangling") => "it refers to an entity that the file does not have, or goes round in a circle".to_owned(),
+        Some(kind) => format!("it refers to a {kind}, which is not read: leave that out"),
+        None => reason.to_string(),
     };
+    let reason = format!("{reason}; export the part again");
     Err(ImportError::Entity { file: file.to_owned(), id: *id, kind: name(*id), reason })
 }
 
