@@ -11,6 +11,7 @@
 mod body;
 mod felt;
 mod frame;
+mod ground;
 mod handle;
 mod homing;
 mod homing_calls;

@@ -1,71 +1,24 @@
 //! The servo loop: started with a mechanism of any kind, ticked without a word of which.
 
-use crate::body::{Loaded, Standing};
-use crate::felt::Felt;
+use crate::ground::{Ground, Rendered};
 use crate::handle::{Handle, Kind};
 use crate::mechanisms::MechanismNumbers;
 use crate::numbers::{DeviceNumbers, SettingsNumbers};
 use crate::pointers::{checked_mut, get, put, row};
 use crate::protection::Guarding;
 use crate::running::{Loop, Running, Sensed};
-use crate::soft::SoftStanding;
 use crate::state::{MotorOutput, StateNumbers};
 use crate::status::{Status, code};
 use core::mem::MaybeUninit;
 use core::ptr::{NonNull, addr_of, addr_of_mut};
-use palpate_core::body::Body;
 use palpate_core::device::{Device, Kinematics};
+use palpate_core::field::MAX_MODES;
 use palpate_core::servo::{Config, Event, Guard, ResetReason, Surface};
 
 /// Words of a servo's handle: of 32 bits on a microcontroller, of 64 on most hosts.
 pub const SERVO_WORDS: usize = if size_of::<usize>() == 4 { 500 } else { 260 };
 /// Words that hold any mechanism's device, loop and state: a handle's, without its head.
 const WORDS: usize = SERVO_WORDS - 6;
-
-/// A handle that a loop can render.
-pub trait Rendered: Kind {
-    /// The surface of the loop.
-    type Surface: Surface + 'static;
-
-    /// To stand on it.
-    ///
-    /// # Safety
-    /// As [`Handle::get`], for as long as anything stands on it.
-    unsafe fn stand(place: *const Handle<Self>) -> Result<(Ground, &'static Felt<Self::Surface>), Status>;
-}
-
-/// The handle that a loop stands on.
-#[derive(Clone, Copy)]
-pub enum Ground {
-    Rigid(Standing),
-    Soft(SoftStanding),
-}
-
-impl Ground {
-    /// Whether it is still there.
-    ///
-    /// # Safety
-    /// As [`Handle::get`].
-    unsafe fn check(self) -> Result<(), Status> {
-        // SAFETY: by the caller's promise.
-        unsafe {
-            match self {
-                Self::Rigid(standing) => standing.body().map(|_| ()),
-                Self::Soft(standing) => standing.check(),
-            }
-        }
-    }
-}
-
-impl Rendered for Loaded {
-    type Surface = Body<'static>;
-
-    unsafe fn stand(place: *const Handle<Self>) -> Result<(Ground, &'static Felt), Status> {
-        // SAFETY: by the caller's promise.
-        let (standing, felt) = unsafe { Standing::on(place) }?;
-        Ok((Ground::Rigid(standing), felt))
-    }
-}
 
 /// A loop in the caller's memory.
 #[repr(C)]
@@ -299,6 +252,22 @@ pub unsafe extern "C" fn palpate_servo_state(servo: *mut Handle<Started>, state:
         let running = unsafe { running(servo) }?;
         // SAFETY: the caller's place for it.
         unsafe { put(state, running.state()) }
+    };
+    code(read())
+}
+
+/// How far each mode is.
+///
+/// # Safety
+/// As the header says of all functions.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn palpate_servo_modes(servo: *mut Handle<Started>, q: *mut f32) -> Status {
+    let read = || {
+        let q: *mut [f32; MAX_MODES] = checked_mut(q)?.cast();
+        // SAFETY: the caller's handle, nobody else's.
+        let modes = unsafe { running(servo) }?.modes().ok_or(Status::SoftNone)?;
+        // SAFETY: the caller's place for them.
+        unsafe { put(q, modes) }
     };
     code(read())
 }

@@ -3,8 +3,7 @@
 use crate::body::{Loaded, Standing};
 use crate::felt::Felt;
 use crate::handle::{Handle, Kind};
-use crate::pointers::{Plain, checked_mut, finite, put, row, take_slots};
-use crate::servo::{Ground, Rendered, Started, running};
+use crate::pointers::{Plain, finite, row, take_slots};
 use crate::status::{Status, code};
 use core::ffi::c_void;
 use palpate_core::body::Soft;
@@ -93,16 +92,20 @@ impl SoftStanding {
     }
 }
 
-impl Rendered for Softened {
-    type Surface = SoftBody<'static>;
-
-    unsafe fn stand(place: *const Handle<Self>) -> Result<(Ground, &'static Felt<SoftBody<'static>>), Status> {
+impl Softened {
+    /// To stand on it.
+    ///
+    /// # Safety
+    /// As [`Handle::get`], for as long as anything stands on it.
+    pub unsafe fn stand(
+        place: *const Handle<Self>,
+    ) -> Result<(SoftStanding, &'static Felt<SoftBody<'static>>), Status> {
         // SAFETY: by the caller's promise.
         let soft = unsafe { Handle::get(place) }?;
         let standing = SoftStanding { place, hash: soft.hash };
         // SAFETY: as above.
         unsafe { standing.check() }?;
-        Ok((Ground::Soft(standing), &soft.felt))
+        Ok((standing, &soft.felt))
     }
 }
 
@@ -154,19 +157,3 @@ pub unsafe extern "C" fn palpate_soft_body_load(
 const PRIME: u32 = 0x0100_0193;
 
 const VACANT: Mode = Mode { field: Quadratic::ZERO, bump: None, limit: 0.0, bounds: FieldBounds::ZERO };
-
-/// How far each mode is.
-///
-/// # Safety
-/// As the header says of all functions.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn palpate_servo_modes(servo: *mut Handle<Started>, q: *mut f32) -> Status {
-    let read = || {
-        let q: *mut [f32; MAX_MODES] = checked_mut(q)?.cast();
-        // SAFETY: the caller's handle, nobody else's.
-        let modes = unsafe { running(servo) }?.modes().ok_or(Status::SoftNone)?;
-        // SAFETY: the caller's place for them.
-        unsafe { put(q, modes) }
-    };
-    code(read())
-}

@@ -190,7 +190,7 @@ def changed(key, entry):
         ("budget = 0.01\n" + "[[mode]]\npoly = []\n" * 9, "9 modes: a body has 1 to 8"),
         ("", "missing field `budget`"),
         (changed("budget", "-1.0"), "the file: budget is -1: must be above 0"),
-        (changed("budget", "1e300"), "mode 0 has a negative or infinite number"),
+        (changed("budget", "1e300"), "mode \"mode 0\": budget, poly, half and radius give a displacement that is too large"),
         (changed("mass", "0.0"), "mode \"mode 0\": mass is 0: must be above 0"),
         (changed("poly", ""), "mode \"mode 0\": no poly: give 10 vectors"),
         (changed("poly", "[[1.0, 0.0, 0.0]]"), "mode \"mode 0\": poly has 1 entries: 10"),
