@@ -75,6 +75,19 @@ impl<S: Surface> Surface for Hertzian<'_, S> {
     fn is_too_deep(&self, witness: &S::Witness) -> bool {
         self.surface.is_too_deep(witness)
     }
+
+    fn choose(&self, witness: &mut S::Witness, index: u8) {
+        self.surface.choose(witness, index);
+    }
+
+    #[inline]
+    fn start_force(&self, witness: &mut S::Witness) {
+        self.surface.start_force(witness);
+    }
+
+    fn turn(&self, witness: &mut S::Witness, turns: i32) {
+        self.surface.turn(witness, turns);
+    }
 }
 
 impl<S: BakedTables> BakedTables for Hertzian<'_, S> {
@@ -88,5 +101,31 @@ impl<S: BakedTables> BakedTables for Hertzian<'_, S> {
 
     fn baked_crc(&self) -> Option<u32> {
         self.surface.baked_crc()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::device::presets::GIMBAL_KNOB;
+    use crate::render::Feel;
+    use crate::servo::{Knob, KnobWitness};
+
+    /// A knob takes all of them.
+    #[test]
+    fn what_the_loop_tells_a_surface_reaches_the_one_within() {
+        static FEELS: [Feel; 2] = [Feel::FREE; 2];
+        const KNOB: Knob = Knob::new(&GIMBAL_KNOB, &FEELS, 1.0);
+        let dented = Hertzian::new(&KNOB, Hertz::new(5e4, 0.008));
+        let is_passed_on = |tell: &dyn Fn(&mut KnobWitness), tell_within: &dyn Fn(&mut KnobWitness)| {
+            let (mut told, mut expected) = (dented.rest(), KNOB.rest());
+            assert_eq!(told, expected);
+            tell(&mut told);
+            tell_within(&mut expected);
+            told == expected && told != KNOB.rest()
+        };
+        assert!(is_passed_on(&|told| dented.choose(told, 1), &|told| KNOB.choose(told, 1)));
+        assert!(is_passed_on(&|told| dented.start_force(told), &|told| KNOB.start_force(told)));
+        assert!(is_passed_on(&|told| dented.turn(told, 3), &|told| KNOB.turn(told, 3)));
     }
 }

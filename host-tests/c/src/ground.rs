@@ -1,4 +1,4 @@
-//! What a loop stands on: a body, or a body that gives way.
+//! The ground of a loop: a body, rigid or one that gives way.
 
 use crate::body::{Loaded, Standing};
 use crate::felt::Felt;
