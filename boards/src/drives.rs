@@ -1,6 +1,7 @@
 //! The drives of all joints.
 
 use crate::NotObeyed;
+use crate::interlock::ticks;
 use embedded_hal::digital::OutputPin;
 use palpate::device::drive::Drive;
 use palpate::device::{Duty, ElectricalAngle};
@@ -114,8 +115,9 @@ impl<D: Drives<JOINTS>, E: OutputPin, const JOINTS: usize> Drives<JOINTS> for Sw
     }
 }
 
-/// Commands in a row for which a break may go unexplained: stop may be pressed between looking at it and driving.
-const UNEXPLAINED: u8 = 2;
+/// Seconds for which a break may go unexplained, two commands at least: stop may be pressed between looking at it and
+/// driving.
+const UNEXPLAINED_S: f32 = 0.000_5;
 
 /// Drives whose outputs an input of the hardware ends, without the program. A break that is over is taken back; one that
 /// lasts enables nothing, and is soon a failure.
@@ -124,13 +126,15 @@ pub struct Breakable<D, F = fn() -> bool> {
     drives: D,
     is_broken: F,
     /// Commands in a row that found them off.
-    broken: u8,
+    broken: u32,
+    max_broken: u32,
 }
 
 impl<D, F> Breakable<D, F> {
-    /// These drives. `is_broken` is whether their outputs are off, and stay so although it tried to take the break back.
-    pub const fn new(drives: D, is_broken: F) -> Self {
-        Self { drives, is_broken, broken: 0 }
+    /// These drives, in a loop of this rate. `is_broken` is whether their outputs are off, and stay so although it tried
+    /// to take the break back.
+    pub const fn new(drives: D, is_broken: F, rate_hz: u32) -> Self {
+        Self { drives, is_broken, broken: 0, max_broken: ticks(UNEXPLAINED_S, rate_hz as f32) }
     }
 }
 
@@ -145,7 +149,7 @@ impl<D: Drives<JOINTS>, F: Fn() -> bool, const JOINTS: usize> Drives<JOINTS> for
         if (self.is_broken)() {
             self.broken = self.broken.saturating_add(1);
             self.drives.release()?;
-            return obeyed(self.broken <= UNEXPLAINED);
+            return obeyed(self.broken <= self.max_broken);
         }
         self.broken = 0;
         self.drives.apply(duties)

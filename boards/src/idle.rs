@@ -122,6 +122,7 @@ impl<'a> Idle<'a> {
     #[must_use]
     pub const fn saying(mut self, rate: f32, max_force: f32) -> Self {
         (self.hello.rate, self.hello.max_force) = (rate, max_force);
+        self.taking.wait_at(rate);
         self
     }
 

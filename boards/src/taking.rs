@@ -4,9 +4,9 @@ use crate::writing::Word;
 use crate::{Mailbox, Uploads};
 use palpate::wire::{Answer, Refused, Upload, UploadError};
 
-/// Ticks without a part after which the motors are no longer held off for flash: 5 s at 4 kHz. A host that has died
-/// keeps nobody from force.
-const PATIENCE: u32 = 20_000;
+/// Seconds without a part after which the motors are no longer held off for flash. A host that has died keeps nobody
+/// from force.
+const PATIENCE_S: f32 = 5.0;
 
 /// Where the parts go that come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,13 +28,21 @@ pub(crate) struct Taking<'a> {
     asked: Option<(u16, u32)>,
     /// The tick of the last part while the motors are held off.
     held: Option<u32>,
+    /// [`PATIENCE_S`], ticks.
+    patience: u32,
     /// The outcome of the last end in flash, which may be asked for again: its answer may have been lost.
     ended: Option<Result<(), UploadError>>,
 }
 
 impl<'a> Taking<'a> {
     pub const fn nothing() -> Self {
-        Self { memory: None, flash: None, into: Into::Memory, asked: None, held: None, ended: None }
+        Self { memory: None, flash: None, into: Into::Memory, asked: None, held: None, patience: 20_000, ended: None }
+    }
+
+    /// The loop's rate, Hz; before, 4 kHz.
+    pub const fn wait_at(&mut self, rate: f32) {
+        // The cast saturates.
+        self.patience = (PATIENCE_S * rate) as u32;
     }
 
     pub fn kept(&self) -> u32 {
@@ -83,7 +91,7 @@ impl<'a> Taking<'a> {
     /// Applies the tick's answer to a body that is to be stored. Ends abandoned transfers.
     pub fn wait(&mut self, mailbox: &Mailbox, pause: &mut dyn FnMut()) -> Option<Answer> {
         if let Some(last) = self.held
-            && mailbox.ticks().wrapping_sub(last) > PATIENCE
+            && mailbox.ticks().wrapping_sub(last) > self.patience
         {
             self.let_go(mailbox);
             self.into = Into::Nowhere;

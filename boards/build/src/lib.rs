@@ -9,6 +9,8 @@ const BODY: &str = "PALPATE_BODY";
 /// Names the device: a file that `cargo palpate device my.toml --out FILE.rs` wrote. `cargo palpate firmware --board B
 /// --device my.toml …` sets it.
 const DEVICE: &str = "PALPATE_DEVICE";
+/// The servo rate, Hz. `cargo palpate firmware --board B --rate HZ …` sets it.
+const RATE: &str = "PALPATE_RATE";
 
 /// Lays a memory map where the linker finds it as `memory.x`.
 ///
@@ -95,6 +97,19 @@ pub fn tables() {
 pub fn body_and_device(body: &str) {
     choose(BODY, body);
     choose(DEVICE, "src/device.rs");
+}
+
+/// Writes the servo rate, Hz, that `PALPATE_RATE` names, or 4,000, as `rate.rs` for `include!`.
+///
+/// # Panics
+/// If it is no whole number from 3,000 up to the highest that the board was modelled at.
+pub fn rate(highest_hz: u32) {
+    println!("cargo::rerun-if-env-changed={RATE}");
+    let asked = env::var(RATE).unwrap_or_else(|_| "4000".to_owned());
+    let rate = asked.parse().ok().filter(|rate| (3_000..=highest_hz).contains(rate));
+    let rate: u32 = rate.unwrap_or_else(|| panic!("{RATE}={asked}: this board takes 3000 to {highest_hz} Hz"));
+    let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
+    fs::write(out.join("rate.rs"), rate.to_string()).expect("OUT_DIR can be written");
 }
 
 fn choose(variable: &str, default: &str) {

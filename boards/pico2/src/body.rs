@@ -1,4 +1,5 @@
-//! Settings of this board: the file to change first. The build chooses device (`--device`) and body (`--body`).
+//! Settings of this board: the file to change first. The build chooses device (`--device`), body (`--body`)
+//! and rate (`--rate`).
 
 use palpate::body::Effort;
 #[cfg(feature = "host")]
@@ -17,9 +18,15 @@ mod own {
     include!(env!("PALPATE_DEVICE_FILE"));
 }
 
-/// 4 kHz and 600 N/m are well inside what the device takes.
+/// Servo rate, Hz: 4,000, or that of `--rate`.
+pub const RATE_HZ: u32 = include!(concat!(env!("OUT_DIR"), "/rate.rs"));
+#[cfg(feature = "host")]
+const _: () =
+    assert!(RATE_HZ <= 4_000, "bodies from a host are bounded for 4 kHz: a faster loop has no feature `host`");
+
+/// 600 N/m are well inside what the device takes.
 pub const SETTINGS: Settings = Settings {
-    rate_hz: 4_000.0,
+    rate_hz: RATE_HZ as f32,
     stiffness_n_per_m: 600.0,
     damping_n_s_per_m: 2.0,
     max_force_n: 5.0,
@@ -39,10 +46,10 @@ mod tables {
     include!(env!("PALPATE_BODY_FILE"));
 }
 
-/// Work of the tracker in a tick: on the capped box the worst takes 35 % of a period at 150 MHz, by 7,000 counted
+/// Work of the tracker in a tick: at 4 kHz the worst on the capped box takes 35 % of a period at 150 MHz, by 7,000 counted
 /// instructions of 1.9 cycles. The rest is for bodies of higher degree, the link and protection; `palpate bake
-/// --table-report` bounds the tick of a body.
-pub const EFFORT: Effort = Effort::BENCH;
+/// --table-report` bounds the tick of a body, `palpate cycles --rates` has the loads of faster loops.
+pub const EFFORT: Effort = palpate_bench::effort(crate::chip::CLOCK, RATE_HZ);
 #[cfg(not(feature = "host"))]
 // The compiler bounds the tick of the body, which takes it a while if that is large.
 #[allow(long_running_const_eval)]

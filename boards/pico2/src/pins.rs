@@ -3,19 +3,23 @@
 use embedded_hal::pwm::SetDutyCycle;
 use palpate::device::drive::HBridge;
 use palpate_bench::sensors::{Angles, Bounded};
-use palpate_bench::{CycleDelay, OneChannel, Parts, ReadBack, Switched};
+use palpate_bench::{CycleDelay, OneChannel, Parts, ReadBack, Switched, dwell};
 use rp235x_hal::gpio::{
     DynPinId, FunctionSio, FunctionSpi, Pin, PullDown, PullNone, PullUp, SioInput, SioOutput, bank0,
 };
 use rp235x_hal::pwm::{A, Channel, FreeRunning, Pwm5, Pwm6, Pwm7, Slice, SliceId};
 
+use crate::body::RATE_HZ;
 use crate::bus::Spi;
 use crate::chip::CLOCK;
 use crate::supply::Volts;
 use crate::ticks::{Clock, Ticks};
 
-/// 20 kHz for the motors: a fifth of a tick, so that a reversal's one tick at no width is long enough.
-const MOTOR_PERIOD: u16 = (CLOCK / 20_000 - 1) as u16;
+/// For the motors, Hz.
+const FREQUENCY: u32 = 20_000;
+const MOTOR_PERIOD: u16 = (CLOCK / FREQUENCY - 1) as u16;
+/// How long a reversal stays at no width: one tick at 4 kHz, two at 20.
+pub const DWELL: u8 = dwell(RATE_HZ, FREQUENCY, 1);
 
 type Line<P> = Pin<P, FunctionSpi, PullDown>;
 /// The pins of the sensors' bus.

@@ -5,10 +5,11 @@ use palpate::device::SupplyRange;
 use palpate::device::drive::HBridge;
 use palpate::wire::telemetry::Queue;
 use palpate_bench::cortex::{Below, Cycles, program_check};
-use palpate_bench::sensors::{Angles, Bounded, max_steps};
+use palpate_bench::sensors::{Angles, Bounded, max_steps, ticks_per_round};
 use palpate_bench::usb::{Cdc, Either, Plain};
 use palpate_bench::{
-    Cause, ClocksDisagree, CycleDelay, Lines, OneChannel, OptionBytes, Parts, Port, ReadBack, Settings, Switched,
+    Cause, ClocksDisagree, CycleDelay, Lines, OneChannel, OptionBytes, Parts, Port, RECORDS_HZ, ReadBack, Settings,
+    Switched,
 };
 use rp235x_hal::adc::{Adc, AdcPin};
 use rp235x_hal::clocks::{Clock as _, init_clocks_and_plls};
@@ -20,7 +21,7 @@ use rp235x_hal::spi::Spi;
 use rp235x_hal::uart::{DataBits, StopBits, UartConfig, UartPeripheral};
 use rp235x_hal::{Sio, Watchdog};
 
-use crate::body::This;
+use crate::body::{RATE_HZ, SETTINGS, This};
 use crate::bus;
 use crate::chip::{CLOCK, CRYSTAL};
 use crate::ring::Ring;
@@ -29,8 +30,15 @@ use crate::ticks::{Clock, Ticks};
 use crate::{Loop, Message, SHARED, chip, pins, port, supply, usb};
 
 /// The settings of this board's loop.
-pub const BENCH: Settings =
-    Settings { supply: Some(SupplyRange::TWENTY_FOUR), needs_host: false, ..Settings::new(CLOCK) };
+pub const BENCH: Settings = Settings {
+    supply: Some(SupplyRange::TWENTY_FOUR),
+    needs_host: false,
+    ticks_per_record: RATE_HZ / RECORDS_HZ,
+    ..Settings::new(CLOCK)
+};
+
+/// Ticks from one reading of a sensor to its next.
+const ROUND: u32 = ticks_per_round(3, SETTINGS.rate_hz);
 
 /// Sets all up, in an order in which no motor moves.
 #[inline(never)]
@@ -69,9 +77,9 @@ pub fn set_up(
     slices.pwm6.channel_a.output_to(pins.gpio12);
     slices.pwm7.channel_a.output_to(pins.gpio14);
     let bridges = (
-        HBridge::new(slices.pwm5.channel_a, pins.gpio11.into_push_pull_output().into_dyn_pin()),
-        HBridge::new(slices.pwm6.channel_a, pins.gpio13.into_push_pull_output().into_dyn_pin()),
-        HBridge::new(slices.pwm7.channel_a, pins.gpio15.into_push_pull_output().into_dyn_pin()),
+        HBridge::dwelling(slices.pwm5.channel_a, pins.gpio11.into_push_pull_output().into_dyn_pin(), pins::DWELL),
+        HBridge::dwelling(slices.pwm6.channel_a, pins.gpio13.into_push_pull_output().into_dyn_pin(), pins::DWELL),
+        HBridge::dwelling(slices.pwm7.channel_a, pins.gpio15.into_push_pull_output().into_dyn_pin(), pins::DWELL),
     );
 
     let lines: pins::Bus = (pins.gpio3.reconfigure(), pins.gpio4.reconfigure(), pins.gpio2.reconfigure());
@@ -83,7 +91,9 @@ pub fn set_up(
         pins.gpio7.into_push_pull_output_in_state(true.into()).into_dyn_pin(),
     ];
     let bus = Bounded(bus::Spi(bus));
-    let mut sensors = Angles::new(bus, selects, CycleDelay::new(clock, CLOCK), max_steps(&This, BENCH.bad_frames));
+    let mut sensors =
+        Angles::new(bus, selects, CycleDelay::new(clock, CLOCK), max_steps(&This, BENCH.bad_frames + ROUND - 1))
+            .at(SETTINGS.rate_hz);
     // One that does not start is a fault of the loop, which names it in its first tick.
     let _ = sensors.start();
 
@@ -92,6 +102,9 @@ pub fn set_up(
         UartPeripheral::new(chip.UART0, (pins.gpio0.into_function(), pins.gpio1.into_function()), &mut chip.RESETS);
     let Ok(uart) = uart.enable(settings, speed) else { panic!("150 MHz make 500,000 baud") };
     let Ok(supply_pin) = AdcPin::new(supply::pin(pins.gpio26)) else { panic!("GP26 is a pin of the converter") };
+    if ROUND > 1 {
+        let _ = sensors.place();
+    }
     let board = Parts {
         counter: clock,
         timer: Ticks::start(slices.pwm0),

@@ -1,18 +1,18 @@
 //! The PWM slice that, used as a timer, raises ticks, and the counter that times them.
 
-use palpate_bench::{Counter, Timer};
+use palpate_bench::{Counter, Timer, tick_counts};
 use rp235x_hal::clocks::ClocksManager;
 use rp235x_hal::pac::{RESETS, TIMER0};
 use rp235x_hal::pwm::{FreeRunning, Pwm0, Slice};
 
-use crate::body::SETTINGS;
+use crate::body::RATE_HZ;
 use crate::chip::CLOCK;
 
 /// Counts of the slice a tick; 16 bits hold it down to 2,289 Hz.
 const PERIOD: u16 = {
-    let counts = CLOCK as f32 / SETTINGS.rate_hz;
-    assert!(counts <= 65_536.0, "the rate is too low for a slice without divider");
-    (counts - 1.0) as u16
+    let counts = tick_counts(CLOCK, RATE_HZ);
+    assert!(counts <= 65_536, "the rate is too low for a slice without divider");
+    (counts - 1) as u16
 };
 
 /// The counter that times ticks and waits (TIMER0), running: the lower 32 bits of the core's clock. Copies of it are the

@@ -5,7 +5,7 @@ mod bounded;
 mod counters;
 mod selected;
 
-pub use angles::{Angles, SELECT};
+pub use angles::{Angles, SELECT, ticks_per_round};
 pub use bounded::{Bounded, Controller, Unfinished};
 pub use counters::{Counters, Readings, max_step, max_steps};
 pub use selected::{SelectError, SelectTiming, Selected};

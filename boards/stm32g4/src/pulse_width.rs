@@ -5,7 +5,7 @@
 //! stop loop at PB12 opens.
 
 use palpate::device::drive::SetPointRange;
-use palpate_bench::Breakable;
+use palpate_bench::{Breakable, dwell};
 use stm32g4xx_hal::gpio::{AF6, Output, PA5, PA8, PA9, PA10, PB12};
 use stm32g4xx_hal::prelude::*;
 use stm32g4xx_hal::pwm::{ActiveHigh, C1, C2, C3, ComplementaryDisabled, Pwm};
@@ -14,7 +14,7 @@ use stm32g4xx_hal::stm32::{DBGMCU, PWR, RCC, SYSCFG, TIM1, tim1};
 use stm32g4xx_hal::time::RateExtU32;
 
 use crate::amplifiers::Amplifiers;
-use crate::body::SETTINGS;
+use crate::body::RATE_HZ;
 
 /// One width.
 type Width<C> = Pwm<TIM1, C, ComplementaryDisabled, ActiveHigh, ActiveHigh>;
@@ -29,7 +29,7 @@ const FREQUENCY: u32 = 2_000;
 /// As the amplifiers are configured.
 pub const RANGE: SetPointRange = SetPointRange::TEN_TO_NINETY;
 /// Two periods of a width.
-pub const DWELL: u8 = (2.0 * SETTINGS.rate_hz / FREQUENCY as f32) as u8 + 1;
+pub const DWELL: u8 = dwell(RATE_HZ, FREQUENCY, 2);
 
 /// The flags of breaks, which zeros clear.
 const BREAKS: u32 = 1 << 7 | 1 << 8 | 1 << 13;
@@ -81,7 +81,7 @@ pub type Drives = Breakable<Three>;
 
 /// These behind the break.
 pub fn guarded(amplifiers: Three) -> Drives {
-    Breakable::new(amplifiers, is_broken as fn() -> bool)
+    Breakable::new(amplifiers, is_broken as fn() -> bool, RATE_HZ)
 }
 
 fn is_broken() -> bool {

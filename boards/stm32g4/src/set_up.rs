@@ -6,14 +6,15 @@ use palpate::wire::telemetry::Queue;
 use palpate_bench::cortex::{Below, Cycles, program_check};
 use palpate_bench::sensors::{Counters, max_steps};
 use palpate_bench::{
-    Cause, ClockCheck, ClocksDisagree, CycleDelay, Lines, Memo, OneChannel, Parts, Port, ReadBack, Settings,
+    Cause, ClockCheck, ClocksDisagree, CycleDelay, Lines, Memo, OneChannel, Parts, Port, RECORDS_HZ, ReadBack,
+    Settings, tick_counts,
 };
 use palpate_stm32g4::{CLOCK, Clock, Iwdg, MEMO, Slow, Ticks, Volts, converters, open_port, option_bytes, start};
 use stm32g4xx_hal::gpio::{AnyPin, Input};
 use stm32g4xx_hal::prelude::*;
 use stm32g4xx_hal::stm32::{Interrupt, Peripherals};
 
-use crate::body::SETTINGS;
+use crate::body::RATE_HZ;
 use crate::encoders::Encoders;
 #[cfg(not(feature = "analog"))]
 use crate::pulse_width as set_points;
@@ -23,8 +24,19 @@ use crate::{Loop, Message, SHARED, amplifiers};
 use set_points::{Drives, Light};
 
 /// The settings of this board's loop.
-pub const BENCH: Settings =
-    Settings { supply: Some(SupplyRange::TWENTY_FOUR), needs_host: false, ..Settings::new(CLOCK) };
+pub const BENCH: Settings = Settings {
+    supply: Some(SupplyRange::TWENTY_FOUR),
+    needs_host: false,
+    ticks_per_record: RATE_HZ / RECORDS_HZ,
+    ..Settings::new(CLOCK)
+};
+
+/// Cycles of a tick; 16 bits hold it down to 2,595 Hz.
+const PERIOD: u16 = {
+    let counts = tick_counts(CLOCK, RATE_HZ);
+    assert!(counts <= u16::MAX as u32, "the rate is too low for the timer without divider");
+    counts as u16
+};
 
 /// The watchdog's timeout, ms: with a host after the 25 ms that a page of flash takes to be erased, motors held off.
 const TIMEOUT_MS: u32 = if cfg!(feature = "host") { 40 } else { 20 };
@@ -96,7 +108,7 @@ pub fn set_up(
 
     let board = Parts {
         counter: clock,
-        timer: Ticks::start(chip.TIM7, SETTINGS.rate_hz, &rcc),
+        timer: Ticks::start(chip.TIM7, PERIOD, &mut rcc),
         sensors: Counters::new(encoders, max_steps(&felt, BENCH.bad_frames)),
         drives,
         lines: Lines {

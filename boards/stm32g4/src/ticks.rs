@@ -3,8 +3,6 @@
 use palpate_bench::Counter;
 use stm32g4xx_hal::rcc::{Enable, Rcc, Reset};
 use stm32g4xx_hal::stm32::{DBGMCU, LPTIMER1, RCC, TIM5, TIM7, lptimer1, tim2};
-use stm32g4xx_hal::time::ExtU32;
-use stm32g4xx_hal::timer::{CountDownTimer, Event, Timer};
 
 /// The counter that times ticks and waits (TIM5), running: 32 bits of the core's clock. Copies of it are the same
 /// counter.
@@ -87,15 +85,19 @@ impl Counter for Slow {
 
 /// The timer that raises ticks (TIM7), running.
 pub struct Ticks {
-    timer: CountDownTimer<TIM7>,
+    timer: TIM7,
 }
 
 impl Ticks {
-    /// Starts the timer at `rate_hz`; its interrupt is still masked.
-    pub fn start(timer: TIM7, rate_hz: f32, rcc: &Rcc) -> Self {
-        let period_us = (1e6 / rate_hz) as u32;
-        let mut timer = Timer::new(timer, &rcc.clocks).start_count_down(period_us.micros());
-        timer.listen(Event::TimeOut);
+    /// Starts the timer, with a tick of this number of cycles; its interrupt is still masked. Not by the HAL, whose
+    /// period is a cycle longer.
+    pub fn start(timer: TIM7, period: u16, rcc: &mut Rcc) -> Self {
+        TIM7::enable(rcc);
+        TIM7::reset(rcc);
+        // SAFETY: sixteen bits, of any value.
+        timer.arr().write(|w| unsafe { w.bits(u32::from(period) - 1) });
+        timer.dier().write(|w| w.uie().set_bit());
+        timer.cr1().write(|w| w.cen().set_bit());
         Self { timer }
     }
 }
@@ -103,6 +105,6 @@ impl Ticks {
 impl palpate_bench::Timer for Ticks {
     #[inline]
     fn acknowledge(&mut self) {
-        self.timer.clear_interrupt(Event::TimeOut);
+        self.timer.sr().write(|w| w.uif().clear_bit());
     }
 }

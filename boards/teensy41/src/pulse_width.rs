@@ -4,11 +4,12 @@ use core::convert::Infallible;
 
 use embedded_hal::pwm::{ErrorType, SetDutyCycle};
 use imxrt_ral::pwm::PWM2;
+use palpate_bench::dwell;
 use teensy4_bsp::hal::flexpwm::{
     Channel, ClockSelect, FULL_RELOAD_VALUE_REGISTER, LoadMode, PairOperation, Prescaler, Pwm, SM,
 };
 
-use crate::body::SETTINGS;
+use crate::body::RATE_HZ;
 
 /// 2 kHz from 150 MHz / 4: the ESCON takes 10 Hz to 5 kHz, and measures worse the faster it is.
 const PERIOD: u16 = 18_750;
@@ -17,7 +18,7 @@ const NEAR: u16 = 38;
 /// Looks that are longer than that.
 const LOOKS: u32 = 1_000;
 /// Two periods of a width, in ticks: how long a reversal stays at no current.
-pub const DWELL: u8 = (2.0 * SETTINGS.rate_hz / 2_000.0) as u8 + 1;
+pub const DWELL: u8 = dwell(RATE_HZ, 2_000, 2);
 
 /// Output A of a submodule.
 pub struct PulseWidth {
@@ -77,7 +78,7 @@ impl SetDutyCycle for PulseWidth {
 
     #[inline]
     fn set_duty_cycle(&mut self, duty: u16) -> Result<(), Infallible> {
-        // Ticks are twice as fast as periods.
+        // Ticks are faster than periods.
         self.take_back();
         // At most 18,750: a positive i16. The new width holds from the next period on.
         self.pwm.set_turn_off(self.submodule, Channel::A, duty.min(PERIOD) as i16);

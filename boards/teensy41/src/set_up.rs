@@ -5,11 +5,11 @@ use palpate::device::SupplyRange;
 use palpate::device::drive::{SetPointDrive, SetPointRange};
 use palpate::wire::telemetry::Queue;
 use palpate_bench::cortex::{Below, Cycles};
-use palpate_bench::sensors::{Angles, Bounded, max_steps};
+use palpate_bench::sensors::{Angles, Bounded, max_steps, ticks_per_round};
 use palpate_bench::usb::{Cdc, Either};
 use palpate_bench::{
-    Breakable, Cause, ClockCheck, ClocksDisagree, CycleDelay, Lines, OneChannel, OptionBytes, Parts, Port, ReadBack,
-    Settings,
+    Breakable, Cause, ClockCheck, ClocksDisagree, CycleDelay, Lines, OneChannel, OptionBytes, Parts, Port, RECORDS_HZ,
+    ReadBack, Settings,
 };
 use teensy4_bsp::Interrupt;
 use teensy4_bsp::board::{self, IPG_FREQUENCY, LpspiPins, lpuart};
@@ -17,7 +17,7 @@ use teensy4_bsp::hal::flexpwm::SM;
 use teensy4_bsp::hal::gpio::{Input, Output};
 use teensy4_bsp::hal::iomuxc::{self, Config, Hysteresis, PullKeeper};
 
-use crate::body::This;
+use crate::body::{RATE_HZ, SETTINGS, This};
 use crate::bus::Spi;
 use crate::pulse_width::{DWELL, PulseWidth};
 use crate::supply::Volts;
@@ -26,14 +26,21 @@ use crate::watchdog::Rtwdog;
 use crate::{Loop, Message, SHARED, chip, fault_input, port, usb};
 
 /// The settings of this board's loop.
-pub const BENCH: Settings =
-    Settings { supply: Some(SupplyRange::TWENTY_FOUR), needs_host: false, ..Settings::new(IPG_FREQUENCY) };
+pub const BENCH: Settings = Settings {
+    supply: Some(SupplyRange::TWENTY_FOUR),
+    needs_host: false,
+    ticks_per_record: RATE_HZ / RECORDS_HZ,
+    ..Settings::new(IPG_FREQUENCY)
+};
 
 type Sensors = Angles<Bounded<Spi>, Output, CycleDelay<Clock>, 3>;
 type Amplifier = SetPointDrive<PulseWidth, Output, Output>;
 type Drives = ReadBack<Breakable<[Amplifier; 3]>>;
 /// The parts that the loop runs on.
 pub type Board = Parts<Clock, Ticks, Sensors, Drives, OneChannel<Input>, Input, Input, Volts, Output, 3>;
+
+/// Ticks from one reading of a sensor to its next.
+const ROUND: u32 = ticks_per_round(3, SETTINGS.rate_hz);
 
 /// Sets all up, in an order in which no motor moves.
 #[inline(never)]
@@ -84,13 +91,18 @@ pub fn set_up(
         SetPointDrive::with_direction(b, enable_b, way_b, range, DWELL),
         SetPointDrive::with_direction(c, enable_c, way_c, range, DWELL),
     ];
-    let drives = Breakable::new(drives, fault_input::is_active as fn() -> bool);
+    let drives = Breakable::new(drives, fault_input::is_active as fn() -> bool, RATE_HZ);
     let drives = ReadBack::new(drives, chip::reads_enabled as fn() -> bool);
 
     let bus = board::lpspi(lpspi4, LpspiPins { sdo: pins.p11, sdi: pins.p12, sck: pins.p13 }, 8_000_000);
     let bus = Bounded(Spi(bus));
-    let mut sensors =
-        Angles::new(bus, selects, CycleDelay::new(clock, IPG_FREQUENCY), max_steps(&This, BENCH.bad_frames));
+    let mut sensors = Angles::new(
+        bus,
+        selects,
+        CycleDelay::new(clock, IPG_FREQUENCY),
+        max_steps(&This, BENCH.bad_frames + ROUND - 1),
+    )
+    .at(SETTINGS.rate_hz);
     // One that does not start is a fault of the loop, which names it in its first tick.
     let _ = sensors.start();
     let input = Config::zero().set_hysteresis(Hysteresis::Enabled);
@@ -117,6 +129,9 @@ pub fn set_up(
         ready: [ready_a, ready_b, ready_c],
         supply: Volts::new(adc1, supply),
     };
+    if ROUND > 1 {
+        let _ = sensors.place();
+    }
     let board = Parts { counter: clock, timer: Ticks::start(pit), sensors, drives, lines, light };
     let (producer, messages) = queue.split();
     let made = Loop::new(This, board, &BENCH, reset, producer, &SHARED.mailbox);

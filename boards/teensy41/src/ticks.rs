@@ -3,15 +3,15 @@
 use imxrt_ral::gpt::GPT1;
 use imxrt_ral::snvs::SNVS;
 use imxrt_ral::{modify_reg, read_reg};
-use palpate_bench::{Counter, Timer};
+use palpate_bench::{Counter, Timer, tick_counts};
 use teensy4_bsp::board::PERCLK_FREQUENCY;
 use teensy4_bsp::hal::gpt::{ClockSource, Gpt, Mode};
 use teensy4_bsp::hal::pit::{Channel::Chan0, Pit};
 
-use crate::body::SETTINGS;
+use crate::body::RATE_HZ;
 
 /// Counts of the periodic timer a tick.
-const PERIOD: u32 = (PERCLK_FREQUENCY as f32 / SETTINGS.rate_hz) as u32;
+const PERIOD: u32 = tick_counts(PERCLK_FREQUENCY, RATE_HZ);
 
 /// The counter that times ticks and waits (GPT1), running: 32 bits of the bus's clock, `IPG_FREQUENCY`. Copies of it
 /// are the same counter.

@@ -93,7 +93,7 @@ fn main() -> ! {
 
     let board = Parts {
         counter: clock,
-        timer: Ticks::start(chip.TIM7, SETTINGS.rate_hz, &rcc),
+        timer: Ticks::start(chip.TIM7, (CLOCK as f32 / SETTINGS.rate_hz) as u16, &mut rcc),
         sensors: sensor,
         drives: ReadBack::new(CurrentWatched::new([stage], shunts, CURRENTS), stage::reads_enabled as fn() -> bool),
         lines: Lines {

@@ -37,6 +37,44 @@ fn a_select_line_is_high_and_set_up_as_long_as_the_data_sheet_asks_at_every_boar
     }
 }
 
+/// Counts a tick of three joints.
+const STEPS: [i32; 3] = [3, 9, -6];
+
+#[test]
+fn above_10_khz_a_tick_reads_one_sensor_and_all_counts_are_of_one_moment() {
+    let (shared, joints) = table::<3>(150_000_000, 6);
+    let mut joints = joints.at(20_000.0);
+    joints.start().unwrap();
+    let (mut last, mut disturbed) = ([Counts(0); 3], 0);
+    for tick in 1..300 {
+        for (chip, step) in shared.borrow_mut().chips.iter_mut().zip(STEPS) {
+            chip.angle = (tick * step) as u16 & 0x3fff;
+            // Its turn comes within three ticks.
+            chip.is_there = !(100..103).contains(&tick) || step != 9;
+        }
+        let (frames, cycles) = (shared.borrow().frames, shared.borrow().cycles);
+        let read = joints.read();
+        let took = (shared.borrow().cycles - cycles) as f32 / 150e6;
+        let Ok(counts) = read else {
+            (disturbed, _) = (tick, assert_eq!(read, Err(BadFrame::Absent)));
+            continue;
+        };
+        // The time by which the rate is chosen, and three frames more after an error.
+        assert!(took < if tick == disturbed + 1 { 20e-6 } else { 8e-6 }, "{tick}: {took} s");
+        assert!(tick == disturbed + 1 || shared.borrow().frames - frames == 2, "{tick}");
+        for ((count, before), step) in counts.iter().zip(last).zip(STEPS) {
+            let moved = (count.0 - before.0) * step.signum();
+            // Up to five ticks' way in three after two bad frames, which the loop bridges.
+            assert!((0..=2 * step.abs()).contains(&moved) || tick - disturbed < 3, "{tick}: {moved} of {step}");
+        }
+        if tick > 5 && tick - disturbed > 8 {
+            assert_eq!(counts, STEPS.map(|step| Counts(step * (tick - 2))), "{tick}");
+        }
+        last = counts;
+    }
+    assert!((100..103).contains(&disturbed));
+}
+
 #[test]
 fn a_delay_is_never_short_by_a_cycle() {
     for frequency in [150_000_000_u32, 170_000_000, 600_000_000, 8_000_000] {

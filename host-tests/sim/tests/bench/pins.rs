@@ -35,6 +35,25 @@ impl Counter for Set<'_> {
 }
 
 #[test]
+fn a_direction_turns_once_the_width_before_is_over_at_every_rate() {
+    for (rate, carrier, periods, ticks) in [
+        (4_000, 20_000, 1, 1),
+        (20_000, 20_000, 1, 2),
+        (4_000, 2_000, 2, 5),
+        (20_000, 2_000, 2, 21),
+        (40_000, 2_000, 2, 41),
+        (15_000, 20_000, 1, 2),
+    ] {
+        assert_eq!(palpate_bench::dwell(rate, carrier, periods), ticks, "{rate} Hz");
+    }
+    for rate in 3_000..40_000 {
+        // The last tick may come half a period early.
+        let rests = (f64::from(palpate_bench::dwell(rate, 20_000, 1)) - 0.5) / f64::from(rate);
+        assert!(rests >= 1.0 / 20e3, "{rate} Hz: {rests} s");
+    }
+}
+
+#[test]
 fn two_clocks_that_are_a_fifth_apart_or_of_which_one_stands_still_disagree() {
     // 170 MHz beside 32 kHz of 16 bits, for a second in turns of a tick; the second's share of what it should make.
     let agree = |share: f64| {

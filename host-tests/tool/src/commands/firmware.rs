@@ -29,6 +29,9 @@ pub struct Arguments {
     /// Device: your own file (my.toml), or the name of a shipped one
     #[arg(long, value_name = "DEVICE")]
     device: Option<PathBuf>,
+    /// Servo rate, Hz: a whole number from 3000 up to 20000, or 40000 on teensy41; default: 4000
+    #[arg(long, value_name = "HZ")]
+    rate: Option<u32>,
     /// Cargo command, such as `build --release` or `clippy`; or `accept`, for the image of `palpate accept`
     #[arg(required = true, allow_hyphen_values = true)]
     cargo: Vec<String>,
@@ -56,6 +59,13 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     if let Some(device) = &arguments.device {
         let (variable, file) = constants(arguments.board, device)?;
         command.env(variable, file);
+    }
+    if let Some(rate) = arguments.rate {
+        anyhow::ensure!(
+            matches!(arguments.board, AnyBoard::Bench(_)),
+            "--rate is of the boards for the bench; an emulated board's rate is that of `demo --rate`"
+        );
+        command.env("PALPATE_RATE", rate.to_string());
     }
     let status = command.current_dir(arguments.board.folder()?).status().with_context(|| format!("{command:?}"))?;
     if !status.success() {
