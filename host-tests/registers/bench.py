@@ -39,21 +39,26 @@ class Bench:
         machine.reset(power=True)
         machine.set_up()
         cls.set_up = machine.snapshot()
-        machine.ticks(A_WHILE)
+        cls.wait(machine, A_WHILE)
         cls.home(machine)
         cls.at_rest = machine.snapshot()
         machine.chip.press(enable=True)
-        machine.ticks(A_WHILE)
+        cls.wait(machine, A_WHILE)
         cls.driving = machine.snapshot()
         cls.shared = machine
 
     @staticmethod
-    def home(machine: Machine) -> None:
+    def wait(machine: Machine, ticks: int) -> None:
+        """As long as this number of ticks of 4 kHz."""
+        machine.ticks(ticks * machine.chip.RATE // 4_000)
+
+    @classmethod
+    def home(cls, machine: Machine) -> None:
         """Homes by the button, and lets go of it."""
         machine.chip.press(enable=True)
-        machine.ticks(HOMING)
+        cls.wait(machine, HOMING)
         machine.chip.press(enable=False)
-        machine.ticks(A_WHILE)
+        cls.wait(machine, A_WHILE)
 
     def new_machine(self) -> Machine:
         """A board with new memory."""

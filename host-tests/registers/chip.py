@@ -29,6 +29,8 @@ class Chip:
     # that cycle.
     COUNTER: int
     COUNTER_CYCLES = 1
+    # Ticks a second.
+    RATE = 4_000
     # Where the image of the code in RAM begins.
     CODE_IMAGE = "__hot_image"
     stands_since: int | None = None

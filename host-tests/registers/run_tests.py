@@ -26,15 +26,21 @@ UNICORN = "unicorn>=2.1.4,<2.2"
 # What builds an image of the loop; with more words, that for a host.
 LOOP = ("--body", "capped_box", "build", "--release")
 HOST = (*LOOP, "--features", "host")
+# The highest rate of each board, Hz.
+FASTEST = {"stm32g4": "20000", "pico2": "20000", "teensy41": "40000"}
 # Each image's board, its file among what is built, and what builds it.
 IMAGES = {
     "stm32g4": ("stm32g4", "stm32g4", LOOP),
     "knob": ("stm32g4", "knob", LOOP),
     "pico2": ("pico2", "pico2", LOOP),
     "teensy41": ("teensy41", "teensy41", LOOP),
+    **{f"{board}_fast": (board, board, ("--rate", rate, *LOOP)) for board, rate in FASTEST.items()},
     **{f"{board}_host": (board, board, HOST) for board in ("stm32g4", "pico2", "teensy41")},
     **{f"{board}_accept": (board, f"{board}-accept", ("accept",)) for board in ("stm32g4", "pico2", "teensy41")},
 }
+
+# Those that run only where they are named.
+LONG = {"pico2_fast", "teensy41_fast"}
 
 
 def say(text: str) -> None:
@@ -71,7 +77,7 @@ def build(names: list[str], folder: Path, wiring: int | None = None) -> None:
 
 
 def main() -> int:
-    names = sys.argv[1:] or list(IMAGES)
+    names = sys.argv[1:] or [name for name in IMAGES if name not in LONG]
     if not set(names) <= set(IMAGES):
         say(f"the images are {', '.join(IMAGES)}")
         return 2

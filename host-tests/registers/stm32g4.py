@@ -257,7 +257,7 @@ class Stm32g4(Chip):
     def slow_count(self) -> int:
         """LPTIM1 counts LSI, if it is chosen, on and started ("RCC_CCIPR", "LPTIM_CR"), while the core's time goes by."""
         runs = self.word(RCC.CCIPR) >> 18 & 3 == 1 and self.word(RCC.CSR) & 1 and self.word(LPTIM1.CR) & 5 == 5
-        return int(self.machine.cycles * LSI * self.slow / (4_000 * self.PERIOD)) & 0xFFFF if runs else 0
+        return int(self.machine.cycles * LSI * self.slow / (self.RATE * self.PERIOD)) & 0xFFFF if runs else 0
 
     def breaks(self, control: int) -> bool:
         """Whether the break of TIM1 is active: PB12 (AF6) at the level of BKP, or what SYSCFG connects."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import telemetry
 from bench import A_WHILE, Bench
-from in_set_up import RATE
 from machine import Machine
 
 # Ticks within which timing that cannot be supervised any more takes the force away: 2 ms.
@@ -19,7 +18,7 @@ class Supervised(Bench):
         for tick in range(1, WITHIN + 1):
             machine.ticks(1)
             if not self.drives(machine):
-                return tick / RATE * 1e3
+                return tick / machine.chip.RATE * 1e3
         self.fail("it goes on driving")
 
     def show(self, what: str, milliseconds: float) -> None:
