@@ -19,6 +19,8 @@ mod settings {
 }
 
 pub use settings::{DEVICE, Mechanism, SETTINGS, WIRING};
+#[cfg(feature = "around")]
+pub use tables::AROUND;
 pub use tables::Surface as Felt;
 
 /// The loop of this image, guarded by `G`.
@@ -40,7 +42,7 @@ pub type State = StateOf<Chosen>;
 const _: () = assert!(size_of::<Face>() == 228 && size_of::<Edge>() == 52 && size_of::<Vertex>() == 32);
 const _: () = assert!(size_of::<Spoke>() == 16 && size_of::<Body>() == 80);
 
-/// A period at 4 kHz is 3,906 instructions here, fewer than [`Effort::BENCH`] may take.
+/// That of a fast loop: as the budgets count it.
 pub const EFFORT: Effort = Effort::ONE;
 // The compiler bounds the tick of the body, which takes it a while if that is large.
 #[allow(long_running_const_eval)]

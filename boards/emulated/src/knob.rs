@@ -19,7 +19,7 @@ use palpate::wire::frame::{self, MAX_FRAME, Received};
 use crate::board::Board;
 use crate::link::Link;
 use crate::pins::Pins;
-use crate::timer::{INSTRUCTIONS_PER_SECOND, InstructionCounter};
+use crate::timer::{CHIP_INSTRUCTIONS_PER_SECOND, InstructionCounter};
 pub use palpate_bench::knob::SETTINGS;
 use palpate_bench::knob::{
     KnobServo, KnobState, MODULATION, SEARCH, TOLD_OF_SUPPLY, device, duties, report, servo, widths,
@@ -34,7 +34,7 @@ static DEVICE: Device<Dial, 1> = device(if cfg!(feature = "uncompensated") { Non
 /// Everything the loop knows, in flash.
 pub static SERVO: KnobServo = servo(&DEVICE, SEARCH, TOLD_OF_SUPPLY);
 
-const DEADLINE: Deadline = Deadline::of_period(INSTRUCTIONS_PER_SECOND as f32, SETTINGS.rate_hz);
+const DEADLINE: Deadline = Deadline::of_period(CHIP_INSTRUCTIONS_PER_SECOND as f32, SETTINGS.rate_hz);
 
 /// One tick of the knob, which is also counted: the loop, and the widths of the three phases.
 #[inline(never)]

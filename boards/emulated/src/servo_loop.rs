@@ -9,7 +9,7 @@ use palpate::wire::{Report, Sensors};
 use crate::board::Board;
 use crate::body::{self, SERVO, SETTINGS, State};
 use crate::link::Link;
-use crate::timer::{INSTRUCTIONS_PER_SECOND, InstructionCounter};
+use crate::timer::{CHIP_INSTRUCTIONS_PER_SECOND, InstructionCounter};
 
 /// Ticks in a row without any frame after which the host is taken for gone and the emulator ends, so that none is left
 /// running. A real device stays, with its motors off.
@@ -20,7 +20,7 @@ const FRAMES_PER_TICK: u32 = 4;
 
 /// From the sensors in hand to the duties applied; waiting for the host does not count, for a real device has its
 /// sensors by it.
-const DEADLINE: Deadline = Deadline::of_period(INSTRUCTIONS_PER_SECOND as f32, SETTINGS.rate_hz);
+const DEADLINE: Deadline = Deadline::of_period(CHIP_INSTRUCTIONS_PER_SECOND as f32, SETTINGS.rate_hz);
 
 /// The servo loop over a link.
 pub struct ServoLoop<L> {
