@@ -128,7 +128,7 @@ enum {
     PALPATE_SETTINGS_COUPLING = 60,        /**< The tool is too light for coupling, surface and rate. */
     PALPATE_SETTINGS_PASSIVITY = 61,       /**< A number of passivity control negative or not finite. */
     PALPATE_PROTECTION_CONTINUOUS = 64,    /**< A motor's continuous torque not positive and finite. */
-    PALPATE_PROTECTION_TIME_CONSTANT = 65, /**< A time constant not between 100 ticks and ten minutes. */
+    PALPATE_PROTECTION_TIME_CONSTANT = 65, /**< A time constant not between 100 and 2,400,000 ticks, or above ten minutes. */
     PALPATE_PROTECTION_SPEED = 66,         /**< A greatest speed not positive. */
     PALPATE_PROTECTION_SUPPLY = 67,        /**< The least supply not below the most. */
     PALPATE_PROTECTION_INERTIA = 68,       /**< An inertia not positive and finite. */

@@ -106,7 +106,9 @@ impl Status {
             Self::SettingsCoupling => c"the virtual tool is too light for its coupling and the surface at this rate",
             Self::SettingsPassivity => c"passivity control's parameters must be finite and not negative",
             Self::ProtectionContinuous => c"a motor's continuous torque must be a positive share of full duty",
-            Self::ProtectionTimeConstant => c"a winding's time constant must be between 100 ticks and ten minutes",
+            Self::ProtectionTimeConstant => {
+                c"a winding's time constant must be between 100 and 2,400,000 ticks, and at most ten minutes"
+            }
             Self::ProtectionSpeed => c"the maximum speeds must be positive",
             Self::ProtectionSupply => c"the supply's minimum voltage must be below its maximum",
             Self::ProtectionInertia => c"the joints' inertias must be positive and finite",

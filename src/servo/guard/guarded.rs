@@ -264,7 +264,7 @@ impl SupplyWatch {
 pub enum ProtectionError {
     /// A motor's continuous torque is not above zero, or not finite.
     Continuous,
-    /// A motor's time constant is below 100 ticks, above ten minutes, or not a number.
+    /// A motor's time constant is below 100 or above 2,400,000 ticks, above ten minutes, or not a number.
     TimeConstant,
     /// A speed is not above zero.
     Speed,
@@ -279,7 +279,9 @@ impl ProtectionError {
     pub const fn message(self) -> &'static str {
         match self {
             Self::Continuous => "a motor's continuous torque must be a positive share of full duty",
-            Self::TimeConstant => "a winding's time constant must be between 100 ticks and ten minutes",
+            Self::TimeConstant => {
+                "a winding's time constant must be between 100 and 2,400,000 ticks, and at most ten minutes"
+            }
             Self::Speed => "the maximum speeds must be positive",
             Self::Supply => "the supply's minimum voltage must be below its maximum",
             Self::Inertia => "the joints' inertias must be positive and finite",
@@ -288,6 +290,10 @@ impl ProtectionError {
 }
 
 crate::message::display!(ProtectionError);
+
+/// Ten minutes at 4 kHz. Each turn rounds the heat down, so that it stays below its end by this number over the joints:
+/// up to 0.08 % of the square of full duty. A shorter constant is safe.
+const MAX_CONSTANT_TICKS: f32 = 2.4e6;
 
 /// Checks a protection for a loop of `rate`, Hz.
 pub(super) const fn check<const JOINTS: usize>(
@@ -301,7 +307,8 @@ pub(super) const fn check<const JOINTS: usize>(
         if !bears {
             return Err(ProtectionError::Continuous);
         }
-        let lasts = motor.time_constant_s * rate >= 100.0 && motor.time_constant_s <= 600.0;
+        let ticks = motor.time_constant_s * rate;
+        let lasts = ticks >= 100.0 && ticks <= MAX_CONSTANT_TICKS && motor.time_constant_s <= 600.0;
         if !lasts {
             return Err(ProtectionError::TimeConstant);
         }
@@ -327,4 +334,21 @@ pub(super) const fn check<const JOINTS: usize>(
         return Err(ProtectionError::Supply);
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::device::presets::WOODEN_HAPTICS_2016_PROTECTION as PROTECTION;
+
+    #[test]
+    fn a_time_constant_of_too_many_ticks_is_refused_for_its_heat_would_be_rounded_away() {
+        let checked = |seconds, rate| {
+            let mut protection = PROTECTION;
+            protection.motors[1].time_constant_s = seconds;
+            check(&protection, rate)
+        };
+        assert_eq!((checked(600.0, 4_000.0), checked(60.0, 40_000.0)), (Ok(()), Ok(())));
+        assert_eq!(checked(61.0, 40_000.0), Err(ProtectionError::TimeConstant));
+    }
 }
