@@ -16,8 +16,10 @@ const TICKS: u32 = 100_000;
 /// Ticks between two jumps of the probe, after which the body is searched again.
 const TICKS_PER_JUMP: u32 = 4_999;
 /// The middle of the capped box, and how far the probe goes from it, metres: beyond each corner, and through the body.
-const MIDDLE: Vec3 = vec3(0.03, 0.02, 0.015);
-const TRAVEL: Vec3 = vec3(0.045, 0.034, 0.032);
+#[cfg(not(feature = "around"))]
+const PATH: [Vec3; 2] = [vec3(0.03, 0.02, 0.015), vec3(0.045, 0.034, 0.032)];
+#[cfg(feature = "around")]
+const PATH: [Vec3; 2] = crate::body::AROUND;
 
 #[inline(never)]
 fn tick(body: &Body, witness: &mut BodyWitness, position: &Vec3) -> BodyStep {
@@ -60,7 +62,8 @@ fn kind(before: &BodyWitness, after: &BodyWitness, step: &BodyStep) -> usize {
 pub fn probe(tick: u32) -> Vec3 {
     // Each within the range for which the sine is good.
     let wave = |rate: f32| sin_cos((tick as f32 * 1e-3 * rate) % core::f32::consts::TAU).0;
-    MIDDLE + TRAVEL * vec3(wave(1.0), wave(1.37), wave(1.73))
+    let [middle, travel] = PATH;
+    middle + travel * vec3(wave(1.0), wave(1.37), wave(1.73))
 }
 
 /// The walk on the statics, kind by kind.

@@ -53,7 +53,7 @@ pub fn run_scene(counter: &mut InstructionCounter) -> Result<(), &'static str> {
 /// # Errors
 /// A walk missed a feature or failed, so that its figures would mean nothing.
 pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
-    if cfg!(feature = "soft") {
+    if cfg!(any(feature = "soft", feature = "around")) {
         return servo::run(counter);
     }
     evaluation::run(counter);

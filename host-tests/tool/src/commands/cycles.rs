@@ -1,10 +1,14 @@
 //! `palpate cycles`: what the hot path may take on real cores, estimated from the instructions that the emulator
 //! executes.
 
+use super::options::SceneOptions;
 use crate::budgets::soft_choice;
 use crate::cycles::{Calls, Core, Figure, LOOPS, ROOTS, Root, SERVO, estimate};
-use crate::firmware::{Board, Program, Progress};
-use clap::Args;
+use crate::firmware::{Board, Choice, Program, Progress};
+use clap::{Args, Parser};
+use std::ffi::OsStr;
+use std::fs;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// Estimates the cycles of the hot path on a Cortex-M4F and a Cortex-M7.
@@ -16,7 +20,18 @@ pub struct Arguments {
     /// Only the ticks of a body that gives way, on a Cortex-M4F
     #[arg(long)]
     soft: bool,
+    /// Only the worst tick with all protection at the rates of fast loops, on the capped box and on this body
+    #[arg(long, value_name = "MODEL", conflicts_with = "soft")]
+    rates: Option<PathBuf>,
 }
+
+/// A bench board at its highest rate: its chip, the emulated board, and the core that the model has for it, its clock and
+/// rate, Hz.
+const FASTEST: [(&str, Board, Core, f64, f64); 3] = [
+    ("STM32G474", Board::M4, Core::M4, 170e6, 20e3),
+    ("RP2350, as a Cortex-M4F", Board::M4, Core::M4, 150e6, 20e3),
+    ("i.MX RT1062", Board::M7, Core::M7, 600e6, 40e3),
+];
 
 const MODEL: &str = "\
 The model, an estimate and no measurement; no wait states, as in CCM, ITCM and DTCM (tables in flash cost more):
@@ -30,6 +45,9 @@ The model, an estimate and no measurement; no wait states, as in CCM, ITCM and D
 /// # Errors
 /// The cause, for the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    if let Some(model) = &arguments.rates {
+        return at_rates(model);
+    }
     // The clock of the board for the bench with this core, Hz.
     for (board, core, chip, clock) in
         [(Board::M4, Core::M4, "STM32G474", 170e6), (Board::M7, Core::M7, "i.MX RT1062", 600e6)]
@@ -69,6 +87,58 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         println!();
     }
     println!("{MODEL}");
+    Ok(ExitCode::SUCCESS)
+}
+
+/// A scene's options, as `demo` has them.
+#[derive(Parser)]
+struct Felt {
+    #[command(flatten)]
+    options: SceneOptions,
+}
+
+/// The image that counts ticks on a model's body, all protection on: of motors that are warm, so that the pulses of the
+/// polarity check and the limits of heat are both among its ticks.
+fn protected_on(model: Option<&Path>, board: Board, progress: &Progress) -> anyhow::Result<Program> {
+    let Some(model) = model else { return Ok(Program::prepare(board, "budget", &["folded"], progress)?) };
+    let words = [OsStr::new("demo"), OsStr::new("--model"), model.as_os_str()];
+    let scene = Felt::try_parse_from(words)?.options.scene()?;
+    let folder = tempfile::tempdir()?;
+    let (body, settings) = (folder.path().join("body.rs"), folder.path().join("settings.rs"));
+    fs::write(&body, scene.source()? + &scene.around()?)?;
+    fs::write(&settings, scene.settings_source())?;
+    let choice = Choice { board, body: Some(body), settings: Some(settings), ..Choice::default() };
+    Ok(Program::prepare_with(&choice, "budget", &["folded", "around"], progress)?)
+}
+
+fn at_rates(model: &Path) -> anyhow::Result<ExitCode> {
+    println!("worst servo tick, all protection on, effort (1, 1), estimated:");
+    println!("  {:<26}{:<22}{:>13}{:>17}{:>8}{:>18}", "", "body", "instructions", "cycles", "kHz", "load of the tick");
+    let progress = Progress::new();
+    for body in [None, Some(model)] {
+        let name = body.and_then(Path::file_stem).unwrap_or(OsStr::new("capped_box")).to_string_lossy();
+        let mut last: Option<(Board, Vec<(Root, Calls)>)> = None;
+        for (chip, board, core, clock, rate) in FASTEST {
+            let found = match last.take() {
+                Some(found) if found.0 == board => found,
+                _ => (board, estimate(&protected_on(body, board, &progress)?, core, &[SERVO])?),
+            };
+            for (_, calls) in &found.1 {
+                let worst = |values: &[u32]| values.iter().max().copied().unwrap_or_default();
+                let [instructions, low, high] =
+                    [&calls.instructions, &calls.cycles[0], &calls.cycles[1]].map(|v| worst(v));
+                let load = |cycles: u32| 100.0 * f64::from(cycles) * rate / clock;
+                println!(
+                    "  {chip:<26}{name:<22}{instructions:>13}{:>17}{:>8}{:>18}",
+                    format!("{low} to {high}"),
+                    rate / 1e3,
+                    format!("{:.0} to {:.0} %", load(low), load(high)),
+                );
+            }
+            last = Some(found);
+        }
+    }
+    println!("\n{MODEL}");
     Ok(ExitCode::SUCCESS)
 }
 

@@ -4,7 +4,7 @@ use super::feel_clean;
 use super::felt::Felt;
 use crate::devices::{self, Arms, ShippedDevice};
 use crate::feel::table::Worst;
-use crate::feel::{Crossed, Row, Wish, plot, rows, table};
+use crate::feel::{Crossed, ENCODERS, RATES, Row, Wish, plot, rows, table};
 use crate::models::ModelFile;
 use crate::report::write_sections;
 use anyhow::{Context, bail, ensure};
@@ -48,6 +48,9 @@ pub struct Arguments {
     /// and finer ones
     #[arg(long, conflicts_with_all = ["model", "rate", "stiffness", "recording", "velocity_corner"])]
     clean: bool,
+    /// Of --clean: other servo rates, Hz, and the device's own encoders alone
+    #[arg(long, value_name = "HZ", value_delimiter = ',', requires = "clean")]
+    rates: Vec<f32>,
     /// Detection threshold: CSV of frequency, Hz, and peak displacement, m, under a header
     #[arg(long, value_name = "FILE.csv")]
     threshold: Option<PathBuf>,
@@ -89,7 +92,20 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         return Ok(ExitCode::SUCCESS);
     }
     if arguments.clean {
-        return feel_clean::run(&arguments.device.each(), |device| wish(arguments, device), &threshold, &arguments.out);
+        let (rates, encoders) = if arguments.rates.is_empty() {
+            (&RATES[..], &ENCODERS[..])
+        } else {
+            (&arguments.rates[..], &ENCODERS[..1])
+        };
+        ensure!(rates.iter().all(|rate| (1.0..=100_000.0).contains(rate)), "--rates are from 1 Hz to 100 kHz");
+        let devices = arguments.device.each();
+        return feel_clean::run(
+            &devices,
+            |device| wish(arguments, device),
+            &threshold,
+            (rates, encoders),
+            &arguments.out,
+        );
     }
     let file = ModelFile::read(&arguments.model)?;
     let felt = Felt::read(&file.model()?, &file, &arguments.model, None, arguments.modes.as_deref())?;

@@ -1,7 +1,7 @@
 //! `palpate feel --clean`: the stiffest walls that are clean to slide along, by device, encoder and rate.
 
 use crate::devices::ShippedDevice;
-use crate::feel::{Clean, ENCODERS, RATES, TRIED, Wish, clean_stiffness, plot, slice};
+use crate::feel::{Clean, TRIED, Wish, clean_stiffness, plot, slice};
 use anyhow::Context;
 use palpate::device::VelocityMethod;
 use palpate_sim::feel::Threshold;
@@ -19,6 +19,7 @@ pub fn run(
     devices: &[&ShippedDevice],
     wish: impl Fn(&ShippedDevice) -> Wish + Sync,
     threshold: &Threshold,
+    (rates, encoders): (&[f32], &[f64]),
     out: &Path,
 ) -> anyhow::Result<ExitCode> {
     // With one joint nothing slides.
@@ -27,11 +28,11 @@ pub fn run(
     println!("maximum stiffness, N/m, that is clean to slide along (that comes to rest), and its estimator:");
     println!("c: counts as they are, b: positions between counts; with its corner, Hz");
     print!("{:<20}{:>8}{:>6}", "device", "encoder", "µm");
-    RATES.iter().for_each(|rate| print!("{:>24}", format!("{} kHz", rate / 1_000.0)));
+    rates.iter().for_each(|rate| print!("{:>24}", format!("{} kHz", rate / 1_000.0)));
     println!();
-    let all = find(&devices, wish, threshold)?;
+    let all = find(&devices, wish, threshold, (rates, encoders))?;
     for (device, points) in devices.iter().zip(&all) {
-        for row in points.chunks(RATES.len()) {
+        for row in points.chunks(rates.len()) {
             let finer = row.first().map_or(1.0, |point| point.finer);
             let slice = slice(device, finer);
             print!("{:<20}{:>8}{:>6.0}", device.name, format!("x{finer}"), slice.resolution * 1e6);
@@ -59,8 +60,9 @@ fn find(
     devices: &[&ShippedDevice],
     wish: impl Fn(&ShippedDevice) -> Wish + Sync,
     threshold: &Threshold,
+    (rates, encoders): (&[f32], &[f64]),
 ) -> anyhow::Result<Vec<Vec<Clean>>> {
-    let each = ENCODERS.len() * RATES.len();
+    let each = encoders.len() * rates.len();
     let next = AtomicUsize::new(0);
     let found = Mutex::new(Vec::new());
     let workers = std::thread::available_parallelism().map_or(1, usize::from);
@@ -70,9 +72,9 @@ fn find(
                 loop {
                     let index = next.fetch_add(1, Ordering::Relaxed);
                     let Some(device) = devices.get(index / each) else { return };
-                    let [encoder, rate] = [index % each / RATES.len(), index % RATES.len()];
-                    let wish = Wish { rate: RATES[rate], ..wish(device) };
-                    let point = clean_stiffness(device, &wish, ENCODERS[encoder], threshold);
+                    let [encoder, rate] = [index % each / rates.len(), index % rates.len()];
+                    let wish = Wish { rate: rates[rate], ..wish(device) };
+                    let point = clean_stiffness(device, &wish, encoders[encoder], threshold);
                     if let Ok(mut found) = found.lock() {
                         found.push((index, point));
                     }

@@ -319,6 +319,21 @@ impl Scene {
         self.felt.source(&self.origin(), self.limits(), self.settings.rate_hz)
     }
 
+    /// The middle of the model's box in the frame of its tables, and how far beyond it the path of an image that counts
+    /// goes, as source.
+    ///
+    /// # Errors
+    /// A model that cannot be read.
+    pub fn around(&self) -> anyhow::Result<String> {
+        let model = self.file.model()?;
+        let points = || model.patches.iter().flat_map(|patch| &patch.points).map(|point| *point - self.centre);
+        let low = points().fold(DVec3::INFINITY, DVec3::min);
+        let high = points().fold(DVec3::NEG_INFINITY, DVec3::max);
+        let [middle, half] = [(low + high) / 2.0, 1.3 * (high - low) / 2.0].map(|v| v.as_vec3().to_array());
+        let vector = |[x, y, z]: [f32; 3]| format!("palpate::math::vec3({x:?}, {y:?}, {z:?})");
+        Ok(format!("pub const AROUND: [palpate::math::Vec3; 2] = [{}, {}];\n", vector(middle), vector(half)))
+    }
+
     /// The model file's name, without its directory.
     pub fn model_name(&self) -> &str {
         &self.file.name

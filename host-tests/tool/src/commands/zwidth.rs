@@ -23,9 +23,9 @@ pub struct Arguments {
     /// Device: a name, your own file (my.toml), or `all`.
     #[arg(long, default_value = "woodenhaptics-2016", value_parser = devices::arms_parser())]
     device: Arms,
-    /// Servo rate, Hz; default: 1, 2, 4 and 8 kHz.
-    #[arg(long)]
-    rate: Option<f64>,
+    /// Servo rates, Hz; default: 1, 2, 4 and 8 kHz.
+    #[arg(long, value_delimiter = ',')]
+    rate: Vec<f64>,
     /// Velocity estimator.
     #[arg(long, value_enum, default_value = "low-pass")]
     velocity: Velocity,
@@ -68,11 +68,11 @@ impl Velocity {
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let positive = |value: f64| value.is_finite() && value > 0.0;
     anyhow::ensure!(
-        arguments.rate.is_none_or(|rate| positive(rate) && rate <= 100_000.0),
+        arguments.rate.iter().all(|rate| positive(*rate) && *rate <= 100_000.0),
         "the rate must be above 0 and at most 100 kHz"
     );
     anyhow::ensure!(positive(arguments.corner), "the corner must be above 0 Hz");
-    let rates = arguments.rate.map_or(RATES.to_vec(), |rate| vec![rate]);
+    let rates = if arguments.rate.is_empty() { RATES.to_vec() } else { arguments.rate.clone() };
     let like = Loop {
         rate: 0.0,
         delay_periods: 0.0,
