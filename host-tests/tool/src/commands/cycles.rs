@@ -115,7 +115,7 @@ fn at_rates(model: &Path) -> anyhow::Result<ExitCode> {
     println!("worst servo tick, all protection on, effort (1, 1), estimated:");
     println!("  {:<26}{:<22}{:>13}{:>17}{:>8}{:>18}", "", "body", "instructions", "cycles", "kHz", "load of the tick");
     let progress = Progress::new();
-    for body in [None, Some(model)] {
+    for body in [Some(model), None] {
         let name = body.and_then(Path::file_stem).unwrap_or(OsStr::new("capped_box")).to_string_lossy();
         let mut last: Option<(Board, Vec<(Root, Calls)>)> = None;
         for (chip, board, core, clock, rate) in FASTEST {

@@ -331,7 +331,11 @@ impl Scene {
         let high = points().fold(DVec3::NEG_INFINITY, DVec3::max);
         let [middle, half] = [(low + high) / 2.0, 1.3 * (high - low) / 2.0].map(|v| v.as_vec3().to_array());
         let vector = |[x, y, z]: [f32; 3]| format!("palpate::math::vec3({x:?}, {y:?}, {z:?})");
-        Ok(format!("pub const AROUND: [palpate::math::Vec3; 2] = [{}, {}];\n", vector(middle), vector(half)))
+        Ok(format!(
+            "/// The middle of the path, and how far it goes.\npub const AROUND: [palpate::math::Vec3; 2] = [{}, {}];\n",
+            vector(middle),
+            vector(half)
+        ))
     }
 
     /// The model file's name, without its directory.

@@ -2,8 +2,11 @@
 
 use crate::pages::{cells, sources, text};
 use palpate::body::BodyWitness;
+use palpate::device::VelocityMethod;
 use palpate::servo::{Guard, Guarded, ServoState};
+use palpate_sim::zwidth::{Loop, Slice, in_words, sweep};
 use palpate_tool::budgets::Budget;
+use palpate_tool::devices::DEVICES;
 use palpate_tool::firmware::Board;
 use palpate_truth::measured::{self, Row, grouped};
 
@@ -70,6 +73,23 @@ fn counted_instructions_are_those_of_the_committed_budgets() {
         let count = budget.of(name).unwrap_or_else(|| panic!("no budget of {name:?}"));
         measured::measured(&claim, grouped(count.into()));
     }
+}
+
+/// One device at one rate: all of them take minutes.
+#[test]
+fn the_walls_of_a_device_at_a_high_rate_are_those_of_the_page() {
+    let page = text("docs/explanation/feel.md");
+    let table =
+        page.split("<!-- generated: cargo palpate zwidth --device all --rate 4000,10000,20000,40000 -->").nth(1);
+    let row = table.and_then(|table| table.lines().find(|line| line.starts_with("| `hapkit`"))).expect("its row");
+    let device = DEVICES.iter().find(|device| device.name == "hapkit").expect("the device");
+    let like = Loop { rate: 0.0, delay_periods: 0.0, velocity: VelocityMethod::LowPass, corner: 200.0, ease: None };
+    let slice = Slice::of(device);
+    let limits = sweep(&slice, &[10e3], &[1.0], like, None, || ());
+    let [stiffest, passive] =
+        limits.iter().fold([0.0, 0.0], |[a, b], limit| [f64::max(a, limit.simulated), f64::max(b, limit.passive)]);
+    let expected = format!("{} ({passive:.1})", in_words(&slice, stiffest));
+    assert_eq!(cells(row).expect("cells")[2].replace(',', ""), expected);
 }
 
 #[test]
