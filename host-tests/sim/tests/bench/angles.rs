@@ -45,6 +45,7 @@ fn above_10_khz_a_tick_reads_one_sensor_and_all_counts_are_of_one_moment() {
     let (shared, joints) = table::<3>(150_000_000, 6);
     let mut joints = joints.at(20_000.0);
     joints.start().unwrap();
+    joints.place().unwrap();
     let (mut last, mut disturbed) = ([Counts(0); 3], 0);
     for tick in 1..300 {
         for (chip, step) in shared.borrow_mut().chips.iter_mut().zip(STEPS) {
