@@ -1,5 +1,5 @@
 // Baked table, not for editing: palpate bake ellipsoid.toml --out ellipsoid.rs
-// Table format 7. SHA-256 of the model file: e52eb8a1a86691231b9d0c9a61c8223adead9325d1ae123056db7d8bae331d8f
+// Table format 8. SHA-256 of the model file: e52eb8a1a86691231b9d0c9a61c8223adead9325d1ae123056db7d8bae331d8f
 
 // Patch 0, "cap".
 #[rustfmt::skip]

@@ -35,7 +35,7 @@ pub use candidate_search::{
 pub use curve::{CurvePoint, MAX_CURVE_DEGREE, SplineCurve};
 pub use feature::{Edge, EdgeFace, EdgeKind, Face, Feature, Separator, Side, Spoke, Vertex};
 pub use file::{Aligned, BodyBuffer, FILE_VERSION, FileError, FileHead, Section};
-pub use locator::{Candidate, GRID, LEAF, Locator, MAX_DEPTH, MAX_FACES, MAX_LIST};
+pub use locator::{Candidate, GRID, Lists, Locator, MAX_CHILDREN, MAX_DEPTH, MAX_FACES, MAX_LIST};
 pub use search::{Located, MAX_EVALUATIONS, MAX_EVALUATIONS_CONVEX};
 pub use soft::{Soft, SoftError, SoftStep, SoftWitness};
 pub use table::{Body, BodyError, BodyTables};

@@ -178,13 +178,14 @@ impl<D: Displacement> Body<'_, D> {
     #[inline(never)]
     fn go_beyond_rectangle(&self, search: &mut Search, probe: Vec3) {
         let Best { face: index, parameters, half_squared } = search.best;
-        let list = self.locator.entries.get(self.locator.list(self.at_rest(probe))..).unwrap_or(&[]);
+        let mut entry = self.locator.list(self.at_rest(probe));
         let mut is_cut = false;
-        for candidate in list.iter().map(|entry| Candidate::unpack(*entry)) {
+        while let Some(candidate) = self.locator.candidate(entry) {
             is_cut |= candidate.face == index && candidate.cuts(parameters);
             if !candidate.more {
                 break;
             }
+            entry += 1;
         }
         if !is_cut {
             return;

@@ -1,7 +1,7 @@
 //! A body as tables in flash, checked when it is built.
 
 use super::feature::{Edge, EdgeFace, EdgeKind, Face, Separator, Side, Spoke, Vertex};
-use super::locator::{Candidate, LEAF, Locator, MAX_FACES, MAX_LIST};
+use super::locator::{Candidate, Locator, MAX_FACES, MAX_LIST};
 use super::tick_bound::{Effort, MAX_SPOKES};
 use crate::field::Rigid;
 use crate::math::Vec3;
@@ -423,32 +423,34 @@ impl<'a, const KINDS: u32> Body<'a, Rigid<KINDS>> {
     }
 
     const fn check_locator(&self) -> Result<(), BodyError> {
-        let Locator { corner, side, nodes, entries } = self.locator;
-        if !(is_finite(corner) && side > 0.0 && side < f32::INFINITY) || nodes.is_empty() || entries.is_empty() {
+        let Locator { corner, side, nodes, lists } = self.locator;
+        let entries = lists.entries as usize;
+        if !(is_finite(corner) && side > 0.0 && side < f32::INFINITY) || nodes.is_empty() || entries == 0 {
             return Err(BodyError::LocatorCube);
         }
         let mut node = 0;
         while node < nodes.len() {
             let mut child = 0;
             while child < 8 {
-                let code = nodes[node][child];
-                let target = (code & !LEAF) as usize;
+                let target = nodes[node][child] as usize;
                 // Children come after their parents, so that a descent ends.
-                let fits =
-                    if code & LEAF != 0 { target < entries.len() } else { target > node && target < nodes.len() };
-                if !fits {
+                if target <= node || target >= nodes.len() + entries {
                     return Err(BodyError::LocatorNode { node: node as u16 });
                 }
                 child += 1;
             }
             node += 1;
         }
+        if !lists.has_readable_entries() {
+            return Err(BodyError::LocatorEntry { entry: 0 });
+        }
         let (mut index, mut list) = (0, 0);
-        while index < entries.len() {
-            let Candidate { face, lower, upper, more, .. } = Candidate::unpack(entries[index]);
+        while index < entries {
+            let wrong = BodyError::LocatorEntry { entry: index as u16 };
+            let Some(Candidate { face, lower, upper, more, .. }) = lists.candidate(index) else { return Err(wrong) };
             let rectangle = lower[0] <= upper[0] && lower[1] <= upper[1];
-            if !(rectangle && (face as usize) < self.faces.len() && (!more || index + 1 < entries.len())) {
-                return Err(BodyError::LocatorEntry { entry: index as u16 });
+            if !(rectangle && (face as usize) < self.faces.len() && (!more || index + 1 < entries)) {
+                return Err(wrong);
             }
             list = if more { list + 1 } else { 0 };
             if list >= MAX_LIST {

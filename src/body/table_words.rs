@@ -73,25 +73,24 @@ impl<const KINDS: u32> Body<'_, Rigid<KINDS>> {
             return spoke.word(word);
         }
         record -= self.spokes.len();
-        let Locator { nodes, entries, .. } = self.locator;
+        let Locator { nodes, lists, .. } = self.locator;
         if let Some(node) = at(nodes, record) {
             let (Some(low), Some(high)) = (at(node, 2 * word), at(node, 2 * word + 1)) else { return None };
             return Some(pair(*low, *high));
         }
         record -= nodes.len();
-        // Entries in records of 16: one each would spend every other reading on the end of a record.
-        let is_there = record < entries.len().div_ceil(ENTRIES) && word < ENTRIES;
-        match at(entries, record * ENTRIES + word) {
-            Some(entry) if is_there => Some(*entry),
-            _ => None,
-        }
+        // Words in records of 16: one each would spend every other reading on the end of a record.
+        let rectangles = records_of(lists.rectangles);
+        let (bytes, record) =
+            if record < rectangles { (lists.rectangles, record) } else { (lists.candidates, record - rectangles) };
+        if word < WORDS { word_of(bytes, record * WORDS + word) } else { None }
     }
 
     /// The number of records.
     pub const fn table_records(&self) -> u32 {
-        let Locator { nodes, entries, .. } = self.locator;
+        let Locator { nodes, lists, .. } = self.locator;
         let features = FACE_RECORDS * self.faces.len() + self.edges.len() + self.vertices.len() + self.spokes.len();
-        (1 + features + nodes.len() + entries.len().div_ceil(ENTRIES)) as u32
+        (1 + features + nodes.len() + records_of(lists.rectangles) + records_of(lists.candidates)) as u32
     }
 
     /// CRC-32 of all words as they are now; [`Self::baked_crc`] is that of the words as they were baked.
@@ -126,7 +125,7 @@ impl<const KINDS: u32> Body<'_, Rigid<KINDS>> {
     }
 
     const fn head(&self, word: usize) -> Option<u32> {
-        let Locator { corner, side, nodes, entries } = self.locator;
+        let Locator { corner, side, nodes, lists } = self.locator;
         Some(match word {
             0 => self.size.to_bits(),
             1 => (Contact::Touching as u32).wrapping_sub(self.sure_from as u32),
@@ -137,7 +136,9 @@ impl<const KINDS: u32> Body<'_, Rigid<KINDS>> {
             6..=8 => component(corner, word - 6),
             9 => side.to_bits(),
             10 => nodes.len() as u32,
-            11 => entries.len() as u32,
+            11 => lists.entries as u32 | (lists.entry_bits as u32) << 16 | (lists.face_bits as u32) << 24,
+            12 => lists.rectangles.len() as u32,
+            13 => lists.candidates.len() as u32,
             _ => return None,
         })
     }
@@ -146,8 +147,26 @@ impl<const KINDS: u32> Body<'_, Rigid<KINDS>> {
 /// Words from one pause to the next.
 pub(super) const PAUSE: u32 = 1_024;
 
-/// Entries of the locator in a record.
-const ENTRIES: usize = 16;
+/// Words of the locator's lists in a record.
+const WORDS: usize = 16;
+
+/// Number of records of a list of bytes.
+const fn records_of(bytes: &[u8]) -> usize {
+    bytes.len().div_ceil(4 * WORDS)
+}
+
+/// Four bytes; zeros past the last one.
+const fn word_of(bytes: &[u8], index: usize) -> Option<u32> {
+    let (first, mut word, mut byte) = (4 * index, 0, 0);
+    if first >= bytes.len() {
+        return None;
+    }
+    while byte < 4 && first + byte < bytes.len() {
+        word |= (bytes[first + byte] as u32) << (8 * byte);
+        byte += 1;
+    }
+    Some(word)
+}
 
 /// Records of a face: its sides, then its patch.
 const FACE_RECORDS: usize = 5;

@@ -1,9 +1,9 @@
 //! The scene: one polynomial patch, as control points and as palpate's tables, and the probes. Lines of `key value
 //! value …`, metres; numbers are printed so that reading them gives the same bits.
 
-use anyhow::{Context as _, ensure};
+use anyhow::{Context as _, bail, ensure};
 use palpate::body::{
-    Body, BodyTables, Edge, EdgeFace, EdgeKind, Face, Locator, Separator, Side, SplineCurve, Spoke, Vertex,
+    Body, BodyTables, Edge, EdgeFace, EdgeKind, Face, Lists, Locator, Separator, Side, SplineCurve, Spoke, Vertex,
 };
 use palpate::math::Vec3;
 use palpate::patch::{
@@ -97,8 +97,12 @@ impl Scene {
 fn body(patch: SplinePatch<'static>, size: f32, lines: &HashMap<&str, &str>) -> anyhow::Result<Body<'static>> {
     let [x, y, z, side] = exactly(lines, "cube")?;
     let nodes: Vec<[u16; 8]> = numbers::<u16>(lines, "nodes")?.as_chunks().0.to_vec();
-    let entries = numbers::<u32>(lines, "entries")?.leak();
-    let locator = Locator { corner: Vec3::new(x, y, z), side, nodes: nodes.leak(), entries };
+    let entries = *numbers::<u16>(lines, "entries")?.first().context("entries")?;
+    let [entry_bits, face_bits] = numbers::<u8>(lines, "bits")?[..] else { bail!("bits: 2 numbers are needed") };
+    let [rectangles, candidates] = ["rectangles", "candidates"].map(|key| numbers::<u8>(lines, key));
+    let (rectangles, candidates) = (rectangles?.leak(), candidates?.leak());
+    let lists = Lists { entries, entry_bits, face_bits, rectangles, candidates };
+    let locator = Locator { corner: Vec3::new(x, y, z), side, nodes: nodes.leak(), lists };
     // Four open borders that no search looks at; as poles they would be searched around.
     let separator = Separator::Plane { across: Vec3::X, offset: 0.0 };
     let sides = [0, 1, 2, 3].map(|edge| Side::Edge { edge, reversed: false, separator });

@@ -28,6 +28,8 @@ pub enum Section {
     Spokes,
     /// The locator's nodes.
     Nodes,
+    /// The locator's rectangles.
+    Rectangles,
     /// The locator's entries.
     Entries,
     /// Notes for people.
@@ -36,7 +38,7 @@ pub enum Section {
 
 impl Section {
     /// All sections, in their order.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Source,
         Self::Body,
         Self::Borders,
@@ -46,6 +48,7 @@ impl Section {
         Self::Vertices,
         Self::Spokes,
         Self::Nodes,
+        Self::Rectangles,
         Self::Entries,
         Self::Notes,
     ];
@@ -62,6 +65,7 @@ impl Section {
             Self::Vertices => "VERT",
             Self::Spokes => "SPOK",
             Self::Nodes => "NODE",
+            Self::Rectangles => "RECT",
             Self::Entries => "ENTR",
             Self::Notes => "NOTE",
         }

@@ -12,7 +12,7 @@ pub use error::{FileError, Section};
 pub use sections::FILE_VERSION;
 
 use super::feature::{Edge, Face};
-use super::locator::Locator;
+use super::locator::{Lists, Locator};
 use super::table::{Body, BodyTables};
 use super::tick_bound::{TickLimit, WorstTick};
 use crate::math::{Vec3, vec3};
@@ -58,12 +58,14 @@ struct BodyRecord {
     corner: Vec3,
     side: f32,
     centre: Vec3,
+    /// Number of the locator's entries, bits of each, and of its face.
+    entries: (u16, u8, u8),
 }
 
 impl BodyRecord {
     fn of(record: &[u32; BODY_WORDS]) -> Result<Self, FileError> {
         let wrong = FileError::Code { section: Section::Body, record: 0 };
-        let [table_crc, convex, numbers @ ..] = *record;
+        let [table_crc, convex, numbers @ .., lists] = *record;
         let is_convex = match convex {
             0 => false,
             1 => true,
@@ -75,7 +77,9 @@ impl BodyRecord {
         if !centre.is_finite() {
             return Err(wrong);
         }
-        Ok(Self { table_crc, is_convex, size, corner: vec3(x, y, z), side, centre })
+        let [low, high, entry_bits, face_bits] = lists.to_le_bytes();
+        let entries = (u16::from_le_bytes([low, high]), entry_bits, face_bits);
+        Ok(Self { table_crc, is_convex, size, corner: vec3(x, y, z), side, centre, entries })
     }
 }
 
@@ -117,7 +121,8 @@ impl<'a> Body<'a> {
     ) -> Result<Self, FileError> {
         let sections = Sections::of_with(bytes, pause)?;
         pause();
-        let BodyRecord { table_crc: stated, is_convex, size, corner, side, .. } = BodyRecord::of(sections.body)?;
+        let BodyRecord { table_crc: stated, is_convex, size, corner, side, entries, .. } =
+            BodyRecord::of(sections.body)?;
         finite(sections.borders, Section::Borders)?;
         finite(sections.coefficients, Section::Coefficients)?;
         pause();
@@ -136,7 +141,11 @@ impl<'a> Body<'a> {
             return Err(FileError::UnusedCoefficients { numbers: numbers.coefficients.len() as u32 });
         }
         pause();
-        let locator = Locator { corner, side, nodes: sections.nodes, entries: sections.entries };
+        let (entries, entry_bits, face_bits) = entries;
+        let (rectangles, candidates) =
+            (bytemuck::cast_slice(sections.rectangles), bytemuck::cast_slice(sections.entries));
+        let lists = Lists { entries, entry_bits, face_bits, rectangles, candidates };
+        let locator = Locator { corner, side, nodes: sections.nodes, lists };
         let tables = BodyTables {
             faces: in_faces,
             edges: in_edges,

@@ -8,7 +8,7 @@ use bytemuck::PodCastError;
 use bytemuck::checked::CheckedCastError;
 
 /// The version of the form of the file that is written and read here.
-pub const FILE_VERSION: u32 = 1;
+pub const FILE_VERSION: u32 = 2;
 
 /// `PALP`.
 const MAGIC: u32 = u32::from_le_bytes(*b"PALP");
@@ -16,7 +16,7 @@ const MAGIC: u32 = u32::from_le_bytes(*b"PALP");
 /// Words of a face's record, of an edge's, and of that of the whole body.
 pub(super) const FACE_WORDS: usize = 39;
 pub(super) const EDGE_WORDS: usize = 8;
-pub(super) const BODY_WORDS: usize = 10;
+pub(super) const BODY_WORDS: usize = 11;
 
 // They are read in place.
 const _: () = assert!(size_of::<Vertex>() == 32 && size_of::<Spoke>() == 16);
@@ -33,6 +33,7 @@ pub(super) struct Sections<'a> {
     pub vertices: &'a [Vertex],
     pub spokes: &'a [Spoke],
     pub nodes: &'a [[u16; 8]],
+    pub rectangles: &'a [u32],
     pub entries: &'a [u32],
     pub notes: &'a [u32],
 }
@@ -57,6 +58,7 @@ impl<'a> Sections<'a> {
             vertices: rest.in_place(Section::Vertices)?,
             spokes: rest.in_place(Section::Spokes)?,
             nodes: rest.in_place(Section::Nodes)?,
+            rectangles: rest.section(Section::Rectangles)?,
             entries: rest.section(Section::Entries)?,
             notes: rest.last(Section::Notes)?,
         })

@@ -1,6 +1,7 @@
 //! Size of a body's tables in flash, by kind.
 
 use super::{BakedBody, BakedSeparator, BakedSide};
+use crate::locator::PackedLists;
 
 /// Sizes of the records on a 32-bit target, in bytes: a face with its patch and sides, an edge, a vertex, a spoke, and
 /// the body itself.
@@ -8,7 +9,7 @@ const FACE: usize = 228;
 const EDGE: usize = 52;
 const VERTEX: usize = 32;
 const SPOKE: usize = 16;
-const BODY: usize = 76;
+const BODY: usize = 92;
 
 /// Bytes of RAM on a 32-bit target that a body from a file needs for its faces and edges.
 pub const fn room(body: &BakedBody) -> usize {
@@ -30,8 +31,8 @@ pub struct BodyBytes {
     pub records: usize,
     /// Nodes of the locator.
     pub nodes: usize,
-    /// Its entries.
-    pub entries: usize,
+    /// Its lists.
+    pub lists: usize,
 }
 
 impl BodyBytes {
@@ -52,7 +53,7 @@ impl BodyBytes {
                 + body.spokes.len() * SPOKE
                 + BODY,
             nodes: size_of_val(body.locator.nodes.as_slice()),
-            entries: size_of_val(body.locator.entries.as_slice()),
+            lists: PackedLists::of(&body.locator.entries).bytes(),
         }
     }
 
@@ -65,7 +66,7 @@ impl BodyBytes {
             ("separators", self.separators),
             ("records", self.records),
             ("locator nodes", self.nodes),
-            ("locator entries", self.entries),
+            ("locator lists", self.lists),
         ]
     }
 

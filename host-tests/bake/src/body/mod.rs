@@ -6,7 +6,9 @@ mod curve;
 
 use crate::convexity::{Convexity, convexity};
 use crate::error::ModelError;
-use crate::locator::{self, BakedLocator, LocatorError, LocatorOptions, LocatorReport, Seams, StoredSurface, extent};
+use crate::locator::{
+    self, BakedLocator, LocatorError, LocatorOptions, LocatorReport, PackedLists, Seams, StoredSurface, extent,
+};
 use crate::model::Model;
 use crate::patch::NurbsPatch;
 use crate::split::{Piece, Provenance};
@@ -17,8 +19,8 @@ pub use bytes::{BodyBytes, room};
 pub use curve::{BakedCurve, BakedSeparator};
 use glam::DVec3;
 use palpate::body::{
-    Body, BodyError, BodyTables, Candidate, Edge, EdgeFace, EdgeKind, Face, GRID, LEAF, Locator, MAX_FACES, Side,
-    Spoke, Vertex,
+    Body, BodyError, BodyTables, Candidate, Edge, EdgeFace, EdgeKind, Face, GRID, Locator, MAX_FACES, Side, Spoke,
+    Vertex,
 };
 use palpate::math::Vec3;
 use palpate::patch::TableError;
@@ -372,7 +374,7 @@ pub struct LocatorTable {
     pub side: f32,
     /// Inner nodes.
     pub nodes: Vec<[u16; 8]>,
-    /// Packed candidates.
+    /// The lists of candidates, each as [`Candidate::pack`] makes it.
     pub entries: Vec<u32>,
 }
 
@@ -391,7 +393,7 @@ impl LocatorTable {
             more: face + 1 < faces,
         };
         let entries = (0..faces).map(|face| entry(face).pack()).collect();
-        Self { corner, side: (2.0 * size) as f32, nodes: vec![[LEAF; 8]], entries }
+        Self { corner, side: (2.0 * size) as f32, nodes: vec![[1; 8]], entries }
     }
 
     /// The locator of these faces, proved cell by cell as far as it goes; see [`locator`].
@@ -418,7 +420,7 @@ impl LocatorTable {
             corner: self.corner,
             side: self.side,
             nodes: self.nodes.clone().leak(),
-            entries: self.entries.clone().leak(),
+            lists: PackedLists::of(&self.entries).to_lists(),
         }
     }
 }

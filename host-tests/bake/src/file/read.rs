@@ -2,6 +2,7 @@
 
 use super::notes::{FaceNotes, FileFault, Notes};
 use crate::body::{BakedBody, BakedCurve, BakedEdge, BakedFace, BakedSeparator, BakedSide, LocatorTable};
+use crate::locator::PackedLists;
 use crate::model::Model;
 use crate::topology::{Border, BorderRole, Sense, Topology, TopologyEdge, TopologySpoke, TopologyVertex};
 use crate::{BakedCoefficients, BakedPatch, NurbsPatch};
@@ -56,7 +57,7 @@ fn baked(body: &Body<'_>, notes: &Notes) -> Result<BakedBody, FileFault> {
         corner: locator.corner,
         side: locator.side,
         nodes: locator.nodes.to_vec(),
-        entries: locator.entries.to_vec(),
+        entries: PackedLists::unpacked(&locator.lists),
     };
     Ok(BakedBody {
         faces,

@@ -4,6 +4,7 @@ use super::notes::FileFault;
 use super::notes::Notes;
 use crate::BakedCoefficients;
 use crate::body::{BakedBody, BakedCurve, BakedEdge, BakedFace, BakedSeparator, BakedSide};
+use crate::locator::PackedLists;
 use crate::model::Model;
 use palpate::body::{FILE_VERSION, Section, Spoke, Vertex};
 use palpate::math::Vec3;
@@ -24,7 +25,10 @@ pub fn write(source: [u8; 32], model: &Model, body: &BakedBody) -> Result<Vec<u8
     section(Section::Source, little(&source));
     let centre = model.centre.as_vec3().to_array();
     let reals = [body.size].into_iter().chain(body.locator.corner.to_array()).chain([body.locator.side]).chain(centre);
-    section(Section::Body, [crc, u32::from(body.is_convex)].into_iter().chain(reals.map(f32::to_bits)).collect());
+    let lists = PackedLists::of(&body.locator.entries);
+    let counts = u32::from(lists.entries) | u32::from(lists.entry_bits) << 16 | u32::from(lists.face_bits) << 24;
+    let whole = [crc, u32::from(body.is_convex)].into_iter().chain(reals.map(f32::to_bits)).chain([counts]);
+    section(Section::Body, whole.collect());
     section(Section::Borders, numbers.0.iter().flatten().map(|border| border.to_bits()).collect());
     section(Section::Coefficients, coefficients(body));
     section(Section::Faces, body.faces.iter().flat_map(|of| numbers.face(of)).collect());
@@ -34,7 +38,8 @@ pub fn write(source: [u8; 32], model: &Model, body: &BakedBody) -> Result<Vec<u8
     let pairs =
         body.locator.nodes.iter().flat_map(|node| node.as_chunks().0.iter().map(|[low, high]| pair(*low, *high)));
     section(Section::Nodes, pairs.collect());
-    section(Section::Entries, body.locator.entries.clone());
+    section(Section::Rectangles, little(&lists.rectangles));
+    section(Section::Entries, little(&lists.candidates));
     section(Section::Notes, little(&Notes::of(model, body).to_bytes()));
     let bytes = 4 * (words.len() + 1);
     words[2] = u32::try_from(bytes).map_err(|_| FileFault::TooLarge { bytes })?;

@@ -215,7 +215,7 @@ pub(super) struct Octree {
 }
 
 /// A child of a node, by index.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Child {
     Node(usize),
     Leaf(usize),

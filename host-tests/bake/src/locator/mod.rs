@@ -19,6 +19,7 @@ mod list;
 mod octree;
 mod options;
 mod osculating;
+mod packed;
 mod piece;
 mod sampled;
 mod stored;
@@ -28,6 +29,7 @@ mod unique;
 
 pub use list::Kind;
 pub use options::{LocatorError, LocatorOptions};
+pub use packed::PackedLists;
 pub use stored::{BorderCorner, BorderSide, Seams};
 pub use stored::{Minimum, StoredPoint, StoredSurface};
 pub use tables::{BakedLocator, LeafCounts, LocatorReport};

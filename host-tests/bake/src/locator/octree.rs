@@ -13,7 +13,7 @@ use super::sampled::{self, Fault, Sampler, Sampling};
 use super::tables::{StoredLists, list};
 use super::unique::{Subject, nearest};
 use glam::DVec3;
-use palpate::body::{LEAF, MAX_EVALUATIONS, MAX_EVALUATIONS_CONVEX};
+use palpate::body::{MAX_CHILDREN, MAX_EVALUATIONS, MAX_EVALUATIONS_CONVEX};
 use rayon::prelude::*;
 use std::cell::RefCell;
 use std::collections::VecDeque;
@@ -108,7 +108,7 @@ impl<'a> Search<'a> {
             // A thread that panicked ends the bake.
             let mut stored = stored.lock().unwrap_or_else(PoisonError::into_inner);
             stored.add(&list(&listed.entries));
-            stored.entries() <= usize::from(LEAF)
+            stored.entries() < MAX_CHILDREN
         };
         let whole = Inherited { regions: self.faces.regions(), convex: Vec::new() };
         match self.children(&root, &whole, 1, &keep) {

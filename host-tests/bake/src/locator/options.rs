@@ -83,9 +83,9 @@ pub enum LocatorError {
     /// A weight is not proved positive: nothing that `BakedPatch::new` gives.
     #[error("a weight is not proved to be positive")]
     Weight,
-    /// The indices have 15 bits.
+    /// The indices have 16 bits.
     #[error(
-        "the locator has {nodes} nodes and {entries} entries, more than the 32768 that its indices can name; lower its depth"
+        "the locator has {nodes} nodes and {entries} entries, together more than the 65536 that its indices can name; lower its depth"
     )]
     TooLarge {
         /// Inner nodes.

@@ -1,9 +1,11 @@
-//! Tables of the target from the octree: lists that are equal, or the end of another, are stored once.
+//! Tables of the target from the octree: lists that are equal, or the end of another, are stored once, and so are
+//! equal parts of the tree.
 
 use super::list::{Child, Kind, Octree};
 use super::options::{LocatorError, LocatorOptions};
+use super::packed::PackedLists;
 use super::unique::Minima;
-use palpate::body::{LEAF, Locator};
+use palpate::body::{Locator, MAX_CHILDREN};
 use palpate::math::Vec3;
 use std::collections::{HashMap, HashSet};
 use std::fmt;
@@ -18,7 +20,7 @@ pub struct BakedLocator {
     pub side: f32,
     /// Inner nodes.
     pub nodes: Vec<[u16; 8]>,
-    /// Lists of candidates.
+    /// Lists of candidates, each as [`palpate::body::Candidate::pack`] makes it.
     pub entries: Vec<u32>,
     /// The report on them.
     pub report: LocatorReport,
@@ -99,7 +101,7 @@ impl BakedLocator {
             corner: self.corner,
             side: self.side,
             nodes: self.nodes.clone().leak(),
-            entries: self.entries.clone().leak(),
+            lists: PackedLists::of(&self.entries).to_lists(),
         }
     }
 }
@@ -128,17 +130,44 @@ pub(super) fn pack(
             entries.extend_from_slice(list);
         }
     }
-    if tree.nodes.len() > usize::from(LEAF) || entries.len() > usize::from(LEAF) {
-        return Err(LocatorError::TooLarge { nodes: tree.nodes.len(), entries: entries.len() });
+    let nodes = nodes(tree, |leaf| starts[lists[leaf].as_slice()]);
+    if nodes.len() + entries.len() > MAX_CHILDREN || entries.len() >= MAX_CHILDREN - 1 {
+        return Err(LocatorError::TooLarge { nodes: nodes.len(), entries: entries.len() });
     }
     let code = |child: &Child| match child {
         Child::Node(node) => *node as u16,
-        Child::Leaf(leaf) => LEAF | starts[lists[*leaf].as_slice()] as u16,
+        Child::Leaf(start) => (nodes.len() + start) as u16,
     };
-    let nodes: Vec<[u16; 8]> =
-        tree.nodes.iter().map(|children| std::array::from_fn(|child| code(&children[child]))).collect();
+    let nodes: Vec<[u16; 8]> = nodes.iter().map(|children| children.each_ref().map(code)).collect();
     let report = report(tree, &nodes, &entries, f64::from(side), options);
     Ok(BakedLocator { corner, side, nodes, entries, report })
+}
+
+/// The nodes of a tree, of equal parts only one: each before its children, with the starts of lists for leaves.
+fn nodes(tree: &Octree, start: impl Fn(usize) -> usize) -> Vec<[Child; 8]> {
+    let mut known: HashMap<[Child; 8], usize> = HashMap::new();
+    let mut distinct: Vec<([Child; 8], usize)> = Vec::new();
+    let mut of = vec![0; tree.nodes.len()];
+    // Children come after their parents there.
+    for (node, children) in tree.nodes.iter().enumerate().rev() {
+        let own = children.each_ref().map(|child| match child {
+            Child::Node(node) => Child::Node(of[*node]),
+            Child::Leaf(leaf) => Child::Leaf(start(*leaf)),
+        });
+        let height = |child: &Child| if let Child::Node(node) = child { distinct[*node].1 + 1 } else { 0 };
+        let above = own.iter().map(height).max().unwrap_or(0);
+        of[node] = *known.entry(own).or_insert_with(|| {
+            distinct.push((own, above));
+            distinct.len() - 1
+        });
+    }
+    // By falling height, so that a node shared by several comes after all of them.
+    let mut order: Vec<usize> = (0..distinct.len()).rev().collect();
+    order.sort_by_key(|node| std::cmp::Reverse(distinct[*node].1));
+    let mut place = vec![0; order.len()];
+    order.iter().enumerate().for_each(|(at, node)| place[*node] = at);
+    let placed = |child: Child| if let Child::Node(node) = child { Child::Node(place[node]) } else { child };
+    order.iter().map(|node| distinct[*node].0.map(placed)).collect()
 }
 
 /// How many entries lists take, one that is equal to another or its end none of its own: whatever their order, as many
@@ -228,7 +257,7 @@ fn report(tree: &Octree, nodes: &[[u16; 8]], entries: &[u32], side: f64, options
             Minima::Unknown => report.sampled += share,
         }
     }
-    report.bytes = size_of_val(nodes) + size_of_val(entries);
+    report.bytes = size_of_val(nodes) + PackedLists::of(entries).bytes();
     report
 }
 

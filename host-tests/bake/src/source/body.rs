@@ -3,6 +3,7 @@
 use super::{Check, Origin, joined, number, pretty, rows};
 use crate::BakedCoefficients;
 use crate::body::{BakedBody, BakedCurve, BakedEdge, BakedFace, BakedSeparator, BakedSide};
+use crate::locator::PackedLists;
 use palpate::body::{EdgeFace, EdgeKind, Spoke, Vertex};
 use palpate::math::Vec3;
 use proc_macro2::{Ident, Literal, TokenStream};
@@ -224,15 +225,22 @@ fn whole(body: &BakedBody, crc: u32, centre: &TokenStream) -> TokenStream {
         let children = node.map(Literal::u16_unsuffixed);
         quote!([#(#children),*])
     });
-    let entries = locator.entries.iter().map(|entry| Literal::u32_unsuffixed(*entry));
-    let [node_count, entry_count] = [locator.nodes.len(), locator.entries.len()].map(Literal::usize_unsuffixed);
+    let node_count = Literal::usize_unsuffixed(locator.nodes.len());
+    let PackedLists { entries, entry_bits, face_bits, rectangles, candidates } = PackedLists::of(&locator.entries);
+    let entries = Literal::u16_unsuffixed(entries);
+    let [entry_bits, face_bits] = [entry_bits, face_bits].map(Literal::u8_unsuffixed);
+    let [rectangle_bytes, candidate_bytes] =
+        [&rectangles, &candidates].map(|bytes| Literal::usize_unsuffixed(bytes.len()));
+    let [rectangles, candidates] = [rectangles, candidates].map(|bytes| bytes.into_iter().map(Literal::u8_unsuffixed));
     let (corner, side, size) = (vector(locator.corner), number(locator.side), number(body.size));
     let (is_convex, crc) = (body.is_convex, Literal::u32_unsuffixed(crc));
     quote! {
         #[rustfmt::skip]
         static NODES: [[u16; 8]; #node_count] = [#(#nodes),*];
         #[rustfmt::skip]
-        static ENTRIES: [u32; #entry_count] = [#(#entries),*];
+        static RECTANGLES: [u8; #rectangle_bytes] = [#(#rectangles),*];
+        #[rustfmt::skip]
+        static CANDIDATES: [u8; #candidate_bytes] = [#(#candidates),*];
         /// CRC-32 of the body's numbers, [`palpate::body::Body::table_crc`], computed when it was baked.
         #[allow(dead_code)]
         pub const TABLE_CRC: u32 = #crc;
@@ -245,7 +253,18 @@ fn whole(body: &BakedBody, crc: u32, centre: &TokenStream) -> TokenStream {
             edges: &EDGES,
             vertices: &VERTICES,
             spokes: &SPOKES,
-            locator: palpate::body::Locator { corner: #corner, side: #side, nodes: &NODES, entries: &ENTRIES },
+            locator: palpate::body::Locator {
+                corner: #corner,
+                side: #side,
+                nodes: &NODES,
+                lists: palpate::body::Lists {
+                    entries: #entries,
+                    entry_bits: #entry_bits,
+                    face_bits: #face_bits,
+                    rectangles: &RECTANGLES,
+                    candidates: &CANDIDATES,
+                },
+            },
             size_m: #size,
             is_convex: #is_convex,
             crc: Some(TABLE_CRC),

@@ -20,7 +20,7 @@ use sha2::{Digest as _, Sha256};
 use std::fmt::Write as _;
 
 /// Version of the form of the tables; raised when older firmware cannot take them.
-pub const FORMAT_VERSION: u32 = 7;
+pub const FORMAT_VERSION: u32 = 8;
 
 /// Content of the header.
 #[derive(Clone, Copy, Debug)]

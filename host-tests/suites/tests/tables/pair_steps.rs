@@ -4,7 +4,7 @@
 //! A tenth of `PALPATE_STEPS` steps are taken, 10⁷ in the long mode; without the variable 100,000.
 
 use crate::random_patches::for_each_patch;
-use palpate::body::{Body, BodyTables, Candidate, Face, LEAF, Locator, Side, Vertex};
+use palpate::body::{Body, BodyTables, Face, Lists, Locator, Side, Vertex};
 use palpate::math::{Vec3, vec3};
 use palpate::pair::{Core, Tool, ToolWitness};
 use palpate::patch::SplinePatch;
@@ -17,11 +17,9 @@ use std::error::Error;
 fn body(patch: SplinePatch<'static>, size: f32) -> Body<'static> {
     static VERTICES: [Vertex; 1] =
         [Vertex { point: Vec3::ZERO, outward: Vec3::ZERO, first_spoke: 0, spokes: 0, is_open: true }];
-    static NODES: [[u16; 8]; 1] = [[LEAF; 8]];
-    static ENTRIES: [u32; 1] =
-        [Candidate { face: 0, lower: [0; 2], upper: [31; 2], convex: false, more: false }.pack()];
+    static NODES: [[u16; 8]; 1] = [[1; 8]];
     let faces: &'static [Face] = Box::leak(Box::new([Face { patch, sides: [Side::Pole { vertex: 0 }; 4] }]));
-    let locator = Locator { corner: Vec3::ZERO, side: size, nodes: &NODES, entries: &ENTRIES };
+    let locator = Locator { corner: Vec3::ZERO, side: size, nodes: &NODES, lists: Lists::WHOLE };
     let tables = BodyTables {
         faces,
         edges: &[],

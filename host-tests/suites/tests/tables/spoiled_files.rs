@@ -1,7 +1,7 @@
 //! A body's file that is not what was baked: refused with its reason, or, where what was changed means something, a
 //! body that can be felt without a panic.
 
-use palpate::body::{Aligned, Body, BodyBuffer, Edge, FILE_VERSION, Face, FileError, FileHead, Section};
+use palpate::body::{Aligned, Body, BodyBuffer, BodyError, Edge, FILE_VERSION, Face, FileError, FileHead, Section};
 use palpate::math::vec3;
 use palpate::track::{Controller, Probe};
 use palpate_bake::file::{self, BakedFile};
@@ -76,13 +76,13 @@ fn what_is_wrong_with_a_file_is_told() {
         ("another beginning", Box::new(|words| words[0] ^= 1), Some(FileError::Magic)),
         (
             "an older version",
-            Box::new(|words| words[1] = 0),
-            Some(FileError::Version { found: 0, wanted: FILE_VERSION }),
+            Box::new(|words| words[1] = 1),
+            Some(FileError::Version { found: 1, wanted: FILE_VERSION }),
         ),
         (
             "a newer version",
-            Box::new(|words| words[1] = 2),
-            Some(FileError::Version { found: 2, wanted: FILE_VERSION }),
+            Box::new(|words| words[1] = 3),
+            Some(FileError::Version { found: 3, wanted: FILE_VERSION }),
         ),
         (
             "a section of another name",
@@ -129,6 +129,21 @@ fn what_is_wrong_with_a_file_is_told() {
             "no kind of coefficients",
             Box::new(move |words| words[of(Section::Faces) + 39] |= 2 << 16),
             code(Section::Faces, 1),
+        ),
+        (
+            "entries of more bits than a word is sure to hold",
+            Box::new(move |words| words[of(Section::Body) + 10] ^= (5 ^ 27) << 16),
+            Some(FileError::Body(BodyError::LocatorEntry { entry: 0 })),
+        ),
+        (
+            "an entry behind the last one",
+            Box::new(move |words| words[of(Section::Body) + 10] += 100),
+            Some(FileError::Body(BodyError::LocatorEntry { entry: 8 })),
+        ),
+        (
+            "a rectangle that is not there",
+            Box::new(move |words| words[of(Section::Body) + 10] += 1 << 16),
+            Some(FileError::Body(BodyError::LocatorEntry { entry: 0 })),
         ),
         ("no orientation", Box::new(move |words| words[of(Section::Faces)] |= 2 << 24), code(Section::Faces, 0)),
         ("no kind of side", Box::new(move |words| words[of(Section::Faces) + 19] |= 3), code(Section::Faces, 0)),

@@ -1,7 +1,7 @@
 //! Ways to spoil the tables of a body: the constructor refuses what cannot be followed, and the CRC finds every flipped
 //! bit.
 
-use palpate::body::{Body, BodyError, EdgeFace, EdgeKind, LEAF, TableCursor};
+use palpate::body::{Body, BodyError, EdgeFace, EdgeKind, TableCursor};
 use palpate::math::Vec3;
 use palpate::patch::crc32;
 use palpate::patch::{Orientation, TableError};
@@ -127,8 +127,7 @@ const SPOILED: &[(&str, Spoil, BodyError)] = &[
     ("no node", |body| body.locator.nodes.clear(), BodyError::LocatorCube),
     ("no entry", |body| body.locator.entries.clear(), BodyError::LocatorCube),
     ("a node is its own child", |body| body.locator.nodes[0][3] = 0, BodyError::LocatorNode { node: 0 }),
-    ("a child is past the end", |body| body.locator.nodes[0][3] = 1, BodyError::LocatorNode { node: 0 }),
-    ("a leaf is past the end", |body| body.locator.nodes[0][7] = LEAF | 6, BodyError::LocatorNode { node: 0 }),
+    ("a child is past the end", |body| body.locator.nodes[0][7] = 7, BodyError::LocatorNode { node: 0 }),
     ("an entry's face is not there", |body| body.locator.entries[2] |= 6 << 20, BodyError::LocatorEntry { entry: 2 }),
     (
         "an entry's rectangle is empty",

@@ -5,12 +5,14 @@
 
 use super::spoiled_files::{baked, mend, section, with_body};
 use palpate::body::{
-    Body, BodyBuffer, BodyError, BodyWitness, Edge, Effort, Face, FileError, Section, Soft, TickLimit, TickWork,
+    Body, BodyBuffer, BodyError, BodyWitness, Edge, Effort, FILE_VERSION, Face, FileError, Lists, Section, Soft,
+    TickLimit, TickWork,
 };
 use palpate::field::{Bump, FieldBounds, Mode, Quadratic};
 use palpate::math::{Vec3, vec3};
 use palpate::tally;
 use palpate::track::{Contact, Controller, Probe};
+use palpate_bake::locator::PackedLists;
 use palpate_truth::generate::Random;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -41,6 +43,7 @@ struct Pieces {
     /// The direction of each end of each edge.
     directions: Vec<[[u32; 3]; 2]>,
     nodes: Vec<u32>,
+    /// Each as [`palpate::body::Candidate::pack`] makes it.
     entries: Vec<u32>,
     notes: Vec<u32>,
 }
@@ -54,6 +57,14 @@ fn of_curve(curve: &[u32]) -> usize {
 
 fn components(kind: u8) -> usize {
     if kind == 0 { 3 } else { 4 }
+}
+
+fn bytes(words: &[u32]) -> Vec<u8> {
+    words.iter().flat_map(|word| word.to_le_bytes()).collect()
+}
+
+fn whole_words(bytes: &[u8]) -> Vec<u32> {
+    bytes.as_chunks().0.iter().map(|word| u32::from_le_bytes(*word)).collect()
 }
 
 /// Where the record of a face's side begins.
@@ -93,16 +104,21 @@ impl Pieces {
         for spoke in get(Section::Spokes).chunks(4) {
             directions[(spoke[3] & 0xffff) as usize][(spoke[3] >> 16) as usize & 1] = [spoke[0], spoke[1], spoke[2]];
         }
+        let body = get(Section::Body);
+        let [low, high, entry_bits, face_bits] = body[10].to_le_bytes();
+        let [rectangles, candidates] = [Section::Rectangles, Section::Entries].map(|of| bytes(&get(of)));
+        let entries = u16::from_le_bytes([low, high]);
+        let lists = Lists { entries, entry_bits, face_bits, rectangles: &rectangles, candidates: &candidates };
         Self {
             source: get(Section::Source),
-            body: get(Section::Body),
+            body,
             borders: get(Section::Borders),
             faces,
             edges,
             vertices: get(Section::Vertices).chunks(8).map(<[u32]>::to_vec).collect(),
             directions,
             nodes: get(Section::Nodes),
-            entries: get(Section::Entries),
+            entries: PackedLists::unpacked(&lists),
             notes: get(Section::Notes),
         }
     }
@@ -126,10 +142,13 @@ impl Pieces {
         }
         let coefficients = self.faces.iter().flat_map(|(_, chunks)| chunks.iter().flatten());
         let coefficients = coefficients.chain(self.edges.iter().flat_map(|(_, chunk)| chunk)).copied().collect();
-        let mut words = vec![u32::from_le_bytes(*b"PALP"), 1, 0];
+        let lists = PackedLists::of(&self.entries);
+        let mut body = self.body.clone();
+        body[10] = u32::from(lists.entries) | u32::from(lists.entry_bits) << 16 | u32::from(lists.face_bits) << 24;
+        let mut words = vec![u32::from_le_bytes(*b"PALP"), FILE_VERSION, 0];
         for (of, data) in [
             (Section::Source, self.source.clone()),
-            (Section::Body, self.body.clone()),
+            (Section::Body, body),
             (Section::Borders, self.borders.clone()),
             (Section::Coefficients, coefficients),
             (Section::Faces, self.faces.iter().flat_map(|(record, _)| record).copied().collect()),
@@ -137,7 +156,8 @@ impl Pieces {
             (Section::Vertices, vertices),
             (Section::Spokes, spokes),
             (Section::Nodes, self.nodes.clone()),
-            (Section::Entries, self.entries.clone()),
+            (Section::Rectangles, whole_words(&lists.rectangles)),
+            (Section::Entries, whole_words(&lists.candidates)),
             (Section::Notes, self.notes.clone()),
         ] {
             let letters: &[u8; 4] = of.letters().as_bytes().first_chunk().expect("four letters");

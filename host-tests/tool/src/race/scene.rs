@@ -4,6 +4,7 @@ use super::path;
 use crate::{models, repository};
 use anyhow::{Context as _, bail};
 use glam::DVec3;
+use palpate_bake::locator::PackedLists;
 use palpate_bake::{BakedBody, BakedCoefficients, BakedPatch, LocatorTable, Model, NurbsPatch};
 use palpate_truth::oracle::Oracle;
 use palpate_truth::oracle::golden::{self, ClosestRow};
@@ -130,7 +131,11 @@ impl Scene {
         line("size", self.baked.size.to_string())?;
         line("cube", words(self.locator.corner.to_array().into_iter().chain([self.locator.side])))?;
         line("nodes", words(self.locator.nodes.iter().flatten()))?;
-        line("entries", words(&self.locator.entries))?;
+        let lists = PackedLists::of(&self.locator.entries);
+        line("entries", lists.entries.to_string())?;
+        line("bits", words([lists.entry_bits, lists.face_bits]))?;
+        line("rectangles", words(&lists.rectangles))?;
+        line("candidates", words(&lists.candidates))?;
         line("stride", self.stride().to_string())?;
         line("probes", words(self.queries.iter().flat_map(|query| query.probe.to_array())))?;
         Ok(text)
