@@ -19,6 +19,7 @@ fn main() {
     lay_out_for_the_linker(memory_map);
     choose("PALPATE_BODY", "../bodies/capped_box.rs");
     choose("PALPATE_SETTINGS", "settings.rs");
+    choose("PALPATE_COLD", "../bodies/capped_box.palp");
 }
 
 /// The board that the environment names, which `cargo --config m7.toml …` sees to.

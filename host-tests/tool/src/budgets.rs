@@ -5,7 +5,7 @@ use crate::repository::{self, NoRepository};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 /// Allowed growth of a figure, percent: covers variations between compilers, but not another call.
@@ -130,6 +130,15 @@ pub fn measure(board: Board, progress: &Progress) -> Result<Figures, BudgetError
     all.0.extend(folded);
     all.0.extend(smooth);
     Ok(all)
+}
+
+/// Counts queries without history on the body of a file.
+///
+/// # Errors
+/// If the program does not run to its end, or says something else than figures.
+pub fn cold(board: Board, file: &Path, progress: &Progress) -> Result<Figures, BudgetError> {
+    let choice = Choice { board, cold: Some(file.to_path_buf()), ..Choice::default() };
+    figures(&Program::prepare_with(&choice, "budget", &["cold"], progress)?.run(Pace::Counting)?)
 }
 
 /// The lines `"name" = count`.

@@ -5,6 +5,7 @@
 //! that is not inlined, and the compiler does not know its patch.
 
 mod closest;
+mod cold;
 mod evaluation;
 mod file;
 #[cfg(feature = "knob")]
@@ -55,6 +56,9 @@ pub fn run_scene(counter: &mut InstructionCounter) -> Result<(), &'static str> {
 pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
     if cfg!(any(feature = "soft", feature = "around")) {
         return servo::run(counter);
+    }
+    if cfg!(feature = "cold") {
+        return cold::run(counter);
     }
     evaluation::run(counter);
     step::run(counter)?;

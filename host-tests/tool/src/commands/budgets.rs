@@ -1,8 +1,11 @@
 //! `palpate budgets`: what the hot path costs on the emulated board, beside what it may cost.
 
-use crate::budgets::{Budget, Figures, Verdict, measure};
+use super::bake;
+use crate::budgets::{Budget, Figures, Verdict, cold, measure};
 use crate::firmware::{Board, Progress};
 use clap::Args;
+use std::fs;
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// Counts the instructions of the hot path on an emulated board and compares them with the committed budget.
@@ -16,6 +19,9 @@ pub struct Arguments {
     /// Write the counts to the budget file
     #[arg(long)]
     record: bool,
+    /// Instead: queries without history on a model's body, in front of its faces and anywhere around
+    #[arg(long, value_name = "MODEL", conflicts_with = "record")]
+    cold: Option<PathBuf>,
 }
 
 /// Runs the command.
@@ -23,6 +29,14 @@ pub struct Arguments {
 /// # Errors
 /// The cause, for the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    if let Some(model) = &arguments.cold {
+        let folder = tempfile::tempdir()?;
+        let file = folder.path().join("cold.palp");
+        fs::write(&file, bake::file_of(model)?)?;
+        let found = cold(arguments.board, &file, &Progress::new())?;
+        found.0.iter().for_each(|(name, count)| println!("{name:<45}  {count:>8}"));
+        return Ok(ExitCode::SUCCESS);
+    }
     let found = measure(arguments.board, &Progress::new())?;
     if arguments.record {
         let file = Budget::record(arguments.board, &found)?;

@@ -147,7 +147,7 @@ pub(super) fn write_tables(board: Board, scene: &Scene) -> anyhow::Result<(tempf
     fs::write(folder.path().join("body.rs"), scene.source()?)?;
     fs::write(folder.path().join("settings.rs"), scene.settings_source())?;
     let [body, settings] = ["body.rs", "settings.rs"].map(|name| Some(folder.path().join(name)));
-    let choice = Choice { board, body, settings, protected: scene.protection.is_some() };
+    let choice = Choice { board, body, settings, protected: scene.protection.is_some(), ..Choice::default() };
     Ok((folder, choice))
 }
 

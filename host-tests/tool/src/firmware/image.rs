@@ -16,6 +16,8 @@ pub struct Choice {
     pub board: Board,
     /// A baked body; the board's default if `None`.
     pub body: Option<PathBuf>,
+    /// A body file of which queries without history are counted.
+    pub cold: Option<PathBuf>,
     /// A settings file; the board's default if `None`.
     pub settings: Option<PathBuf>,
     /// With all protection of the device.
@@ -59,7 +61,11 @@ impl Choice {
     /// rebuilds when these change.
     fn target_folder(&self, toolchain: &Toolchain) -> Result<PathBuf, SetUpError> {
         let folder = toolchain.target_folder()?;
-        Ok(if self.body.is_some() || self.settings.is_some() { folder.join("chosen") } else { folder })
+        Ok(if self.body.is_some() || self.settings.is_some() || self.cold.is_some() {
+            folder.join("chosen")
+        } else {
+            folder
+        })
     }
 }
 
@@ -137,7 +143,9 @@ fn cargo_build(toolchain: &Toolchain, choice: &Choice) -> Result<Command, SetUpE
     }
     // The log's levels are chosen when it is compiled.
     cargo.env("DEFMT_LOG", "info");
-    for (variable, file) in [("PALPATE_BODY", &choice.body), ("PALPATE_SETTINGS", &choice.settings)] {
+    let chosen =
+        [("PALPATE_BODY", &choice.body), ("PALPATE_SETTINGS", &choice.settings), ("PALPATE_COLD", &choice.cold)];
+    for (variable, file) in chosen {
         match file {
             Some(file) => cargo.env(variable, file.canonicalize().map_err(SetUpError::io(file.display()))?),
             None => cargo.env_remove(variable),
