@@ -16,6 +16,7 @@ mod face_entry;
 mod feature;
 mod feature_switch;
 mod file;
+mod glance;
 mod inside_test;
 mod locator;
 mod pole;

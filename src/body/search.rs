@@ -7,16 +7,20 @@ use super::candidate_search::{
     CandidateSearch, CandidateStatus, MAX_EVALUATIONS_PER_CANDIDATE, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX,
 };
 use super::feature::Face;
+use super::glance;
 use super::locator::{Candidate, GRID};
 use super::table::Body;
 use crate::field::Displacement;
-use crate::math::{Vec3, sqrt};
+use crate::math::{Vec3, sqrt, sqrt_from_above};
 use crate::patch::{Patch as _, SplinePatch};
 
 /// Maximum evaluations of a search.
 pub const MAX_EVALUATIONS: u16 = 512;
 /// Maximum evaluations of a search on a convex body.
 pub const MAX_EVALUATIONS_CONVEX: u16 = 32;
+
+/// Glances in the time of an evaluation.
+const GLANCES: usize = 5;
 
 /// A search between two evaluations.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,6 +30,8 @@ pub(super) struct Search {
     pub(super) entry: u16,
     evaluations: u16,
     best: Best,
+    /// Whether the candidate, not evaluated yet, may be nearer for all that a glance tells.
+    is_seen: bool,
     /// Whether a candidate ended before its minimum.
     exhausted: bool,
     /// Once the search has ended: whether every candidate was searched to its end.
@@ -83,8 +89,9 @@ impl Search {
     pub fn new<D: Displacement>(body: &Body<'_, D>, probe: Vec3) -> Self {
         let entry = body.locator.list(body.at_rest(probe));
         Self {
-            descending: body.descending(entry),
+            descending: body.descending(body.candidate(entry)),
             entry: entry as u16,
+            is_seen: false,
             evaluations: 0,
             best: Best { face: 0, parameters: [0.5; 2], half_squared: f32::INFINITY },
             exhausted: false,
@@ -98,6 +105,11 @@ impl Search {
         if self.ended.is_some() {
             return;
         }
+        // On a convex body lists are too short for it to pay.
+        if !body.is_convex() && self.descending.is_fresh() && !self.is_seen && self.passes_over(body, probe) {
+            return;
+        }
+        self.is_seen = false;
         let Candidate { face, .. } = self.descending.candidate;
         let Some(progress) = body.search_on(&mut self.descending, probe, self.best.half_squared) else {
             self.ended = Some(false);
@@ -114,6 +126,36 @@ impl Search {
         self.go_on(body, progress);
     }
 
+    /// Passes over candidates that are farther than the best point at a glance, as many as take the time of an
+    /// evaluation; whether there were any.
+    #[inline]
+    fn passes_over<D: Displacement>(&mut self, body: &Body<'_, D>, probe: Vec3) -> bool {
+        if self.best.half_squared == f32::INFINITY {
+            return false;
+        }
+        let (before, mut candidate) = (self.evaluations, self.descending.candidate);
+        let distance = sqrt_from_above(2.0 * self.best.half_squared);
+        // Hidden from the compiler, which would unroll every round.
+        for _ in 0..core::hint::black_box(GLANCES) {
+            self.is_seen = !body.is_farther(&candidate, probe, distance);
+            if self.is_seen {
+                break;
+            }
+            self.evaluations += 1;
+            if !candidate.more || self.evaluations >= MAX_EVALUATIONS {
+                self.ended = Some(!candidate.more && !self.exhausted);
+                return true;
+            }
+            self.entry += 1;
+            candidate = body.candidate(usize::from(self.entry));
+        }
+        if self.evaluations == before {
+            return false;
+        }
+        self.descending = body.descending(candidate);
+        true
+    }
+
     /// Continues with the next evaluation or candidate, or ends.
     #[inline]
     fn go_on<D: Displacement>(&mut self, body: &Body<'_, D>, progress: CandidateStatus) {
@@ -125,7 +167,7 @@ impl Search {
             self.ended = Some(false);
         } else if !falls {
             self.entry += 1;
-            self.descending = body.descending(usize::from(self.entry));
+            self.descending = body.descending(body.candidate(usize::from(self.entry)));
         }
     }
 
@@ -216,16 +258,22 @@ impl<D: Displacement> Body<'_, D> {
         Some(search.step_on(self.patch(on), poles, probe, known, self.size))
     }
 
-    /// A search from the middle of the candidate at an index.
+    /// A search from the middle of a candidate.
     #[inline(always)]
-    pub(super) fn descending(&self, entry: usize) -> CandidateSearch {
-        let candidate = self.candidate(entry);
+    fn descending(&self, candidate: Candidate) -> CandidateSearch {
         // A convex body's lists are short, and no audit follows.
         if self.is_convex() {
             CandidateSearch::new(candidate, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX).with_last_evaluation()
         } else {
             CandidateSearch::new(candidate, MAX_EVALUATIONS_PER_CANDIDATE)
         }
+    }
+
+    /// Whether a candidate is farther than a distance, at a glance.
+    #[inline(always)]
+    fn is_farther(&self, candidate: &Candidate, probe: Vec3, distance: f32) -> bool {
+        let face = self.faces.get(usize::from(candidate.face));
+        self.by.is_rest() && face.is_some_and(|face| glance::is_farther(&face.patch, candidate, probe, distance))
     }
 
     fn poles_of(&self, face: u16) -> u8 {
