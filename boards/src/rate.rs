@@ -1,4 +1,4 @@
-//! What follows from a loop's rate when its image is built. What the board does not bear does not compile.
+//! Numbers of an image that depend on its rate. A rate that the board does not bear is a compile error.
 
 use palpate::body::Effort;
 
