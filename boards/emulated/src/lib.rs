@@ -29,6 +29,8 @@ pub mod panic;
 #[cfg(not(feature = "protected"))]
 pub mod pins;
 mod planted;
+#[cfg(feature = "race")]
+pub mod race;
 pub mod recorded;
 pub mod reset;
 pub mod servo_loop;

@@ -1,7 +1,8 @@
 //! `palpate race`: palpate against Newton's method and what people use today.
 
 use super::output::write_whole;
-use crate::firmware::Progress;
+use crate::firmware::{Board, Progress};
+use crate::race::on_target::{self, COURSES, Target};
 use crate::race::{self, Program, Scene, Who};
 use anyhow::Context as _;
 use clap::Args;
@@ -19,6 +20,9 @@ use std::process::ExitCode;
 /// password. Nanoseconds are the quickest of five runs of each query.
 ///
 /// The first run compiles the peers, which takes minutes.
+///
+/// With `--board` whole bodies on an emulated core instead, against code that a firmware engineer would write: distance
+/// grids, a walk over triangles, Newton's method.
 #[derive(Args, Debug)]
 pub struct Arguments {
     /// Folder for numbers (race.csv) and picture (race.svg)
@@ -30,6 +34,12 @@ pub struct Arguments {
     /// Skip the peers, which take most of the time
     #[arg(long)]
     without_peers: bool,
+    /// Race on this emulated board
+    #[arg(long, conflicts_with_all = ["out", "without_peers"])]
+    board: Option<Board>,
+    /// Bodies of the race on a board; default: all
+    #[arg(long, requires = "board", num_args = 1.., value_parser = COURSES)]
+    body: Vec<String>,
 }
 
 /// Runs the command.
@@ -40,6 +50,15 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let progress = Progress::new();
     // Before anything is installed in vain.
     crate::repository::root()?;
+    if let Some(board) = arguments.board {
+        let target = Target::build(board, &progress)?;
+        for name in
+            COURSES.iter().filter(|name| arguments.body.is_empty() || arguments.body.iter().any(|body| body == *name))
+        {
+            println!("{}", on_target::race(&target, name, arguments.rows as usize, &progress).context(*name)?);
+        }
+        return Ok(ExitCode::SUCCESS);
+    }
     race::set_up(&progress)?;
     let who = if arguments.without_peers { Who::Own } else { Who::All };
     let program = Program::build(who, &progress)?;

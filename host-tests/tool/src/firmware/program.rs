@@ -6,7 +6,7 @@ use super::{
 };
 use std::net::TcpStream;
 use std::path::Path;
-use std::process::{Child, ChildStdout, Stdio};
+use std::process::{Child, ChildStdout, Command, Stdio};
 use tempfile::TempDir;
 
 /// A program's image and the emulator for it.
@@ -15,8 +15,8 @@ pub struct Program {
     qemu: Qemu,
     /// The image.
     pub image: Image,
-    /// Keeps the image's file.
-    _folder: TempDir,
+    /// Keeps the image's file, and those that it reads and writes.
+    folder: TempDir,
 }
 
 impl Program {
@@ -42,7 +42,7 @@ impl Program {
         let toolchain = Toolchain::set_up(choice.board.target(), progress)?;
         let folder = tempfile::Builder::new().prefix("palpate-image-").tempdir().map_err(SetUpError::io("a folder"))?;
         let image = image::build_program(&toolchain, choice, program, features, folder.path(), progress)?;
-        Ok(Self { qemu, image, _folder: folder })
+        Ok(Self { qemu, image, folder })
     }
 
     /// A program that was built before.
@@ -53,7 +53,18 @@ impl Program {
         let folder = tempfile::Builder::new().prefix("palpate-image-").tempdir().map_err(SetUpError::io("a folder"))?;
         // The emulator runs in a folder of its own.
         let elf = elf.canonicalize().map_err(SetUpError::io(elf.display()))?;
-        Ok(Self { qemu: Qemu::set_up(progress)?, image: image::measure(board, elf)?, _folder: folder })
+        Ok(Self { qemu: Qemu::set_up(progress)?, image: image::measure(board, elf)?, folder })
+    }
+
+    /// The folder that it runs in.
+    pub fn folder(&self) -> &Path {
+        self.folder.path()
+    }
+
+    fn command(&self, pace: Pace) -> Command {
+        let mut command = self.qemu.board(&self.image.elf, self.image.board, pace);
+        command.current_dir(self.folder.path());
+        command
     }
 
     /// Runs the program alone, without a link to the host, and returns its output.
@@ -61,7 +72,7 @@ impl Program {
     /// # Errors
     /// The program's output, if it failed.
     pub fn run(&self, pace: Pace) -> Result<String, SetUpError> {
-        output(&mut self.qemu.board(&self.image.elf, self.image.board, pace))
+        output(&mut self.command(pace))
     }
 
     /// Runs the program and logs every block of instructions that starts in one of these ranges (start, length), as a
@@ -71,7 +82,7 @@ impl Program {
     /// If the emulator does not start.
     pub fn trace(&self, ranges: &[(u64, u64)]) -> Result<Child, SetUpError> {
         let filter: Vec<String> = ranges.iter().map(|(start, length)| format!("{start:#x}+{length:#x}")).collect();
-        let mut command = self.qemu.board(&self.image.elf, self.image.board, Pace::Free);
+        let mut command = self.command(Pace::Free);
         command.args(["-d", "exec,nochain", "-D", "/dev/stderr", "-dfilter", &filter.join(",")]);
         command.stdout(Stdio::null()).stderr(Stdio::piped());
         command.spawn().map_err(SetUpError::io("the emulator"))

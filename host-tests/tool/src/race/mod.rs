@@ -5,6 +5,7 @@
 mod budget;
 mod callgrind;
 mod judge;
+pub mod on_target;
 mod path;
 mod plot;
 mod program;

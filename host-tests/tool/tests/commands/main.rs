@@ -13,4 +13,5 @@ mod pair;
 mod protected_demo;
 mod queries;
 mod race;
+mod race_on_target;
 mod talking;
