@@ -8,12 +8,16 @@ use crate::math::{Vec3, sqrt, vec3};
 use crate::scene::{BodyPose, Wrench, product, turned_by};
 use core::fmt;
 
-/// Maximum motion of the proxy in a tick: 2 m/s and 40 rad/s at 4 kHz.
-const MAX_STEP_M: f32 = 0.5e-3;
-const MAX_TURN_RAD: f32 = 0.01;
-/// Maximum change of the wrench in a tick by a proxy that moves farther than the hand, as where it slips over an edge.
-const SLIP_N: f32 = 0.04;
-const SLIP_N_M: f32 = 0.1e-3;
+/// Maximum speed of the proxy, m/s and rad/s, and its maximum motion in a tick, beyond which a linearised gap says too
+/// little.
+const SPEED: [f32; 2] = [2.0, 40.0];
+const STEP: [f32; 2] = [0.5e-3, 0.01];
+/// Maximum change of the wrench by a proxy that moves farther than the hand, as where it slips over an edge: N/s and
+/// N·m/s, and in a tick.
+const SLIP: [f32; 2] = [160.0, 0.4];
+const SLIP_STEP: [f32; 2] = [0.04, 0.1e-3];
+/// Seconds over which the wrench fades once contact is given up, as a point's force does.
+const FADE_S: f32 = 0.005;
 /// Sweeps over the contacts.
 const SWEEPS: u8 = 10;
 /// A tool in contact has a radius of at least this share of its core's largest half length: nearer, the normal is lost
@@ -26,10 +30,29 @@ const GIVEN_UP: f32 = 0.5;
 ///
 /// For an angle `θ` the torque is `k sin θ` about its axis, the gradient of the exact potential `2 k ‖vec q‖²`, without
 /// arc functions. A device that renders it at period `h` needs a damping of `k h/2` in each direction.
+///
+/// The proxy follows by at most 2 m/s and 40 rad/s, and adds at most 160 N/s and 0.4 N·m/s to what the hand's own motion
+/// makes of the wrench; below 4 kHz by as much a tick as at 4 kHz.
+///
+/// ```
+/// use palpate::pair::ToolCoupling;
+///
+/// // 1 kN/m and 0.1 N·m/rad at 4 kHz.
+/// let coupling = ToolCoupling::new(1_000.0, 0.1, 4_000.0).expect("three positive numbers");
+/// let [damping, turning] = coupling.min_damping();
+/// assert!((damping - 0.125).abs() < 1e-6 && (turning - 1.25e-5).abs() < 1e-9);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ToolCoupling {
     stiffness_n_per_m: f32,
     stiffness_n_m_per_rad: f32,
+    period_s: f32,
+    /// Of the proxy in a tick, m and rad.
+    max_step: [f32; 2],
+    /// Of the wrench in a tick, by a proxy that slips, N and N·m.
+    max_slip: [f32; 2],
+    /// By which the share of a given-up wrench falls in a tick.
+    fade_step: f32,
 }
 
 /// Why a proxy is not started, or was given up.
@@ -56,6 +79,9 @@ pub struct Proxy {
     manifold: Manifold,
     evaluations: u32,
     given_up: Option<ProxyError>,
+    /// The last wrench on the hand before contact was given up, and the share of it that is still given.
+    wrench: Wrench,
+    share: f32,
 }
 
 impl fmt::Display for ProxyError {
@@ -72,22 +98,26 @@ impl fmt::Display for ProxyError {
 impl core::error::Error for ProxyError {}
 
 impl ToolCoupling {
-    /// A spring of a stiffness in N/m and one in N·m/rad; `None` unless both are positive and finite.
-    pub const fn new(stiffness_n_per_m: f32, stiffness_n_m_per_rad: f32) -> Option<Self> {
-        if stiffness_n_per_m > 0.0
-            && stiffness_n_per_m < f32::INFINITY
-            && stiffness_n_m_per_rad > 0.0
-            && stiffness_n_m_per_rad < f32::INFINITY
-        {
-            Some(Self { stiffness_n_per_m, stiffness_n_m_per_rad })
-        } else {
-            None
+    /// A spring of a stiffness in N/m and one in N·m/rad, in a loop of `rate_hz`; `None` unless all are positive and
+    /// finite.
+    pub const fn new(stiffness_n_per_m: f32, stiffness_n_m_per_rad: f32, rate_hz: f32) -> Option<Self> {
+        if !is_positive(stiffness_n_per_m) || !is_positive(stiffness_n_m_per_rad) || !is_positive(rate_hz) {
+            return None;
         }
+        let fade = 1.0 / (FADE_S * rate_hz);
+        Some(Self {
+            stiffness_n_per_m,
+            stiffness_n_m_per_rad,
+            period_s: 1.0 / rate_hz,
+            max_step: in_a_tick(SPEED, STEP, rate_hz),
+            max_slip: in_a_tick(SLIP, SLIP_STEP, rate_hz),
+            fade_step: if fade < 1.0 { fade } else { 1.0 },
+        })
     }
 
     /// The damping that makes the sampled spring passive: N·s/m and N·m·s/rad.
-    pub const fn min_damping(&self, period_s: f32) -> [f32; 2] {
-        [0.5 * self.stiffness_n_per_m * period_s, 0.5 * self.stiffness_n_m_per_rad * period_s]
+    pub const fn min_damping(&self) -> [f32; 2] {
+        [0.5 * self.stiffness_n_per_m * self.period_s, 0.5 * self.stiffness_n_m_per_rad * self.period_s]
     }
 
     /// On the proxy at `from`, by a hand at `to`; minus it is on the hand.
@@ -114,7 +144,7 @@ impl ToolCoupling {
         let pull = self.wrench(proxy, hand);
         let (mut way, mut turn) = (pull.force * soft, pull.torque * softer);
         // One factor for both, so that the step still lowers the spring's energy.
-        let share = share_within([way, turn], [MAX_STEP_M, MAX_TURN_RAD]);
+        let share = share_within([way, turn], self.max_step);
         (way, turn) = (way * share, turn * share);
         let mut pressed = [0.0_f32; MAX_CONTACTS];
         for _ in 0..SWEEPS {
@@ -130,8 +160,8 @@ impl ToolCoupling {
         }
         let (moved, (turned, _)) = stretch(before, hand);
         let length = |vector: Vec3| sqrt(vector.length_squared());
-        let share =
-            share_within([way, turn], [length(moved) + SLIP_N * soft, 2.0 * length(turned) + SLIP_N_M * softer]);
+        let [slip, slip_turn] = self.max_slip;
+        let share = share_within([way, turn], [length(moved) + slip * soft, 2.0 * length(turned) + slip_turn * softer]);
         (way, turn) = (way * share, turn * share);
         let position = (Vec3::from_array(proxy.position) + way).to_array();
         let next = BodyPose { position, orientation: turned_by(turn * 0.5, &proxy.orientation) };
@@ -139,6 +169,16 @@ impl ToolCoupling {
         let is_outside = contacts.iter().all(|contact| contact.gap >= 0.0);
         if is_outside && self.energy_j(&next, hand) > self.energy_j(proxy, hand) { *proxy } else { next }
     }
+}
+
+const fn is_positive(number: f32) -> bool {
+    number > 0.0 && number < f32::INFINITY
+}
+
+/// What a rate a second allows in a tick of a loop of `rate_hz`, and never more than `most`.
+const fn in_a_tick([way, turn]: [f32; 2], [most_way, most_turn]: [f32; 2], rate_hz: f32) -> [f32; 2] {
+    let (way, turn) = (way / rate_hz, turn / rate_hz);
+    [if way < most_way { way } else { most_way }, if turn < most_turn { turn } else { most_turn }]
 }
 
 /// The factor, at most 1, that brings both vectors within their limits.
@@ -183,6 +223,8 @@ impl Proxy {
                 manifold: Manifold::NONE,
                 evaluations: found.evaluations,
                 given_up: None,
+                wrench: Wrench::default(),
+                share: 1.0,
             }),
             ToolStatus::AtRest | ToolStatus::Inside => Err(ProxyError::Intersects),
             _ => Err(ProxyError::Lost),
@@ -190,18 +232,22 @@ impl Proxy {
     }
 
     /// One tick: follows the contacts of the proxy, lets it go towards the hand as far as they let it, and gives the
-    /// wrench on the hand about the origin of the tool's frame. Zero, until the proxy is started again, after contact
-    /// was given up: the hand's pose is none, the tracker lost the pair, or the core is nearer to the body than half
-    /// the radius. `cells` as in [`Body::step_tool`].
+    /// wrench on the hand about the origin of the tool's frame. Once contact is given up the last one fades within 5 ms,
+    /// and there is none until the proxy is started again: the hand's pose is none, the tracker lost the pair, or the
+    /// core is nearer to the body than half the radius. `cells` as in [`Body::step_tool`].
     pub fn tick(&mut self, body: &Body, tool: &Tool, coupling: &ToolCoupling, hand: &BodyPose, cells: u16) -> Wrench {
         if self.given_up.is_none() {
             self.given_up = self.follow(body, tool, coupling, hand, cells).err();
         }
         if self.given_up.is_some() {
-            return Wrench::default();
+            let left = self.share - coupling.fade_step;
+            self.share = if left > 0.0 { left } else { 0.0 };
+            let Wrench { force, torque } = self.wrench;
+            return Wrench { force: force * self.share, torque: torque * self.share };
         }
         let Wrench { force, torque } = coupling.wrench(&self.pose, hand);
-        Wrench { force: -force, torque: -torque }
+        self.wrench = Wrench { force: -force, torque: -torque };
+        self.wrench
     }
 
     fn follow(
@@ -220,7 +266,8 @@ impl Proxy {
         if !is_known || found.distance < -GIVEN_UP * tool.radius() {
             return Err(ProxyError::Lost);
         }
-        self.manifold = self.state.manifold(body, tool, &placement, MAX_STEP_M, MAX_TURN_RAD);
+        let [step, turn] = coupling.max_step;
+        self.manifold = self.state.manifold(body, tool, &placement, step, turn);
         self.pose = coupling.settle(&self.pose, &self.hand, hand, self.manifold.contacts());
         self.hand = *hand;
         Ok(())

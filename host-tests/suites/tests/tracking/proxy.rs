@@ -9,7 +9,8 @@ use palpate::pair::{Proxy, ProxyError, Tool, ToolCoupling};
 use palpate::scene::BodyPose;
 use palpate_truth::generate::Random;
 
-const PERIOD_S: f64 = 1.0 / 4000.0;
+const RATE_HZ: f32 = 4_000.0;
+const PERIOD_S: f64 = 1.0 / RATE_HZ as f64;
 const TICKS: u32 = 12_000;
 const RADIUS_M: f64 = 0.003;
 /// N/m and N·m/rad.
@@ -37,6 +38,10 @@ impl Pose {
     fn place(&self, point: DVec3) -> DVec3 {
         self.turn * point + self.origin
     }
+}
+
+fn coupling_at(rate_hz: f32) -> ToolCoupling {
+    ToolCoupling::new(STIFFNESS[0] as f32, STIFFNESS[1] as f32, rate_hz).expect("three positive numbers")
 }
 
 fn corners(low: DVec3, high: DVec3) -> [DVec3; 8] {
@@ -115,7 +120,7 @@ fn press(
         let turn = rock * DQuat::from_axis_angle(across, 0.2 * (rad_per_s / 0.2 / 2.5 * time).sin());
         Pose { turn: turn * DQuat::from_axis_angle(inward, 0.4 * time), origin: start + inward * depth + stroke }
     };
-    let coupling = ToolCoupling::new(STIFFNESS[0] as f32, STIFFNESS[1] as f32).expect("two stiffnesses");
+    let coupling = coupling_at(RATE_HZ);
     let mut proxy = Proxy::start(body, tool, &hand(0).to_body(centre)).expect("it starts outside");
     let mut felt = Felt { gap: f64::INFINITY, ..Felt::default() };
     let (mut before, mut energy) = ([DVec3::ZERO; 2], 0.0_f64);
@@ -208,7 +213,7 @@ fn a_hand_that_jumps_at_random_pushes_no_proxy_in() {
     let ticks = std::env::var("PALPATE_TICKS").map_or(120_000, |ticks| ticks.parse::<u32>().expect("a number"));
     let (base, centre) = body("capped_box");
     let (low, high) = (DVec3::ZERO, DVec3::new(0.06, 0.04, 0.02));
-    let coupling = ToolCoupling::new(STIFFNESS[0] as f32, STIFFNESS[1] as f32).expect("two stiffnesses");
+    let coupling = coupling_at(RATE_HZ);
     let mut random = Random::new(41);
     let mut gaps = [f64::INFINITY; 3];
     let mut touched = 0;
@@ -253,15 +258,39 @@ fn a_proxy_is_refused_or_given_up_by_name() {
     assert_eq!(refused(&tool(0.003), &at(f64::NAN)), Some(ProxyError::Pose));
     let skewed = BodyPose { orientation: [0.5, 0.0, 0.0, 0.0], ..at(-0.02) };
     assert_eq!(refused(&tool(0.003), &skewed), Some(ProxyError::Pose));
-    assert!(ToolCoupling::new(f32::NAN, 1.0).is_none() && ToolCoupling::new(1000.0, 0.0).is_none());
-    let coupling = ToolCoupling::new(1000.0, 0.1).expect("two stiffnesses");
+    for [way, turn, rate] in [[f32::NAN, 1.0, RATE_HZ], [1000.0, 0.0, RATE_HZ], [1000.0, 0.1, f32::INFINITY]] {
+        assert_eq!(ToolCoupling::new(way, turn, rate), None);
+    }
+    let coupling = coupling_at(RATE_HZ);
     let mut proxy = Proxy::start(&base, &tool(0.003), &at(-0.02)).expect("it starts outside");
     let pulled = proxy.tick(&base, &tool(0.003), &coupling, &at(-0.01), 0);
     assert!(pulled.force.z < -5.0, "{pulled:?}");
-    // A pose that is none gives no force, then and later.
-    for hand in [at(f64::NAN), at(-0.01)] {
+    // A pose that is none ends contact: the force fades evenly within 5 ms, and there is none later.
+    let mut last = pulled.force;
+    for tick in 1..=40 {
+        let hand = if tick == 1 { at(f64::NAN) } else { at(-0.01) };
         let wrench = proxy.tick(&base, &tool(0.003), &coupling, &hand, 0);
-        assert_eq!((wrench.force, wrench.torque), (Vec3::ZERO, Vec3::ZERO));
+        let fallen = (last - wrench.force).length() / pulled.force.length();
+        assert!(fallen <= 1.001 / (0.005 * RATE_HZ), "tick {tick}: {wrench:?}");
+        assert!(tick < 21 || (wrench.force, wrench.torque) == (Vec3::ZERO, Vec3::ZERO), "tick {tick}: {wrench:?}");
         assert_eq!(proxy.given_up(), Some(ProxyError::Pose));
+        last = wrench.force;
+    }
+}
+
+/// A hand that jumps by 18 mm in free air: the spring's 18 N go at 160 N/s, at any rate from 4 kHz on.
+#[test]
+fn a_proxy_follows_as_fast_at_any_rate() {
+    let (base, centre) = body("capped_box");
+    let tool = Tool::new(core(DVec3::new(0.012, 0.007, 0.004)), RADIUS_M as f32).expect("a tool");
+    let at = |z: f64| Pose { turn: DQuat::IDENTITY, origin: DVec3::new(0.03, 0.02, z) }.to_body(centre);
+    for (rate_hz, seconds) in [(1_000.0, 0.45), (4_000.0, 0.1125), (20_000.0, 0.1125)] {
+        let coupling = coupling_at(rate_hz);
+        let mut proxy = Proxy::start(&base, &tool, &at(-0.02)).expect("it starts outside");
+        let arrives = |_: &u32| proxy.tick(&base, &tool, &coupling, &at(-0.038), 0).force.length() < 1e-3;
+        let ticks = (1..20_000).find(arrives).expect("it arrives");
+        // The first tick may follow the hand by a whole step of 0.5 mm, a thirty-sixth of the way.
+        let share = f64::from(ticks) / f64::from(rate_hz) / seconds;
+        assert!((1.0 - 1.0 / 36.0 - 0.002..=1.002).contains(&share), "{rate_hz} Hz: {ticks} ticks, {share}");
     }
 }
