@@ -141,7 +141,7 @@ export class Page {
       this.view = this.body.device.view();
     }
     this.picture();
-    if (this.draws) this.room.draw();
+    this.room.draw(this.draws);
   }
 
   /** Puts marks and words to where the view is. */

@@ -267,9 +267,12 @@ export class Room {
     this.lines?.forEach((material) => material.resolution.set(width, height));
   }
 
-  draw() {
+  /** Draws a frame, or only puts everything to where it would be drawn. */
+  draw(draws) {
     this.orbit.update();
-    this.renderer.render(this.scene, this.camera);
+    if (draws) return this.renderer.render(this.scene, this.camera);
+    this.scene.updateMatrixWorld();
+    this.camera.updateMatrixWorld();
   }
 }
 
