@@ -5,7 +5,7 @@ use palpate::body::FileError;
 use palpate_link::{Device, Error, Fault, Refused, UploadError};
 use palpate_sim::simulated::Kind;
 
-/// A capped box of 4,864 bytes and a sphere of 31,380, as `palpate bake` makes them.
+/// A capped box of 4,532 bytes and a sphere of 24,356, as `palpate bake` makes them.
 pub const BOX: &[u8] = include_bytes!("../../../../boards/bodies/capped_box.palp");
 pub const SPHERE: &[u8] = include_bytes!("../../../../boards/bodies/sphere_body.palp");
 

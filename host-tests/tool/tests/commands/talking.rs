@@ -41,7 +41,7 @@ fn a_session_is_done_line_by_line() {
     // Ten times a second for a quarter of one.
     assert_eq!(views.len(), 3 + 3 + 1);
     assert!(views[6].ends_with("stopped: stopped by hand"), "{}", views[6]);
-    assert!(said.contains("4864 of 4864 bytes") && said.contains("its origin is at 0.000 0.000 0.000 mm of the model"));
+    assert!(said.contains("4532 of 4532 bytes") && said.contains("its origin is at 0.000 0.000 0.000 mm of the model"));
     // All but who, where, wait, watch and quit.
     assert_eq!(said.lines().filter(|line| *line == "done").count(), 17);
 }

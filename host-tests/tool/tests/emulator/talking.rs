@@ -31,7 +31,7 @@ fn a_host_places_pushes_uploads_and_stops_an_emulated_board() {
     };
     // A body 10 mm lower, less what the tip swings.
     assert!(before.ends_with("running") && (gap(after) - gap(before) - 10.0).abs() < 0.5, "{before}\n{after}");
-    assert!(said.contains("4864 of 4864 bytes"));
+    assert!(said.contains("4532 of 4532 bytes"));
     assert!(pushed.contains("force 0.00 0.00 1.00 N"), "{pushed}");
     assert!(stopped.ends_with("stopped: stopped by hand"), "{stopped}");
 }
