@@ -79,7 +79,7 @@ fn bits(numbers: impl Iterator<Item = u32>) -> usize {
     numbers.max().map_or(0, |most| (u32::BITS - most.leading_zeros()) as usize)
 }
 
-/// Numbers of so many bits without gaps, then zeros to the end of a word after the last one's first byte.
+/// Numbers of `bits` bits without gaps, then zeros to the end of a word after the last one's first byte.
 fn packed(numbers: impl ExactSizeIterator<Item = u32>, bits: usize) -> Vec<u8> {
     let last = numbers.len().saturating_sub(1) * bits / 8;
     let mut bytes = vec![0; (last + size_of::<u32>()).next_multiple_of(size_of::<u32>())];
@@ -105,7 +105,7 @@ mod tests {
             let faces = bits.min(FACE_BITS);
             let mut below = |bits: usize| random.between(0.0, (1_u64 << bits) as f64) as u32;
             let mut entry = || below(bits - faces) | below(faces) << RECTANGLE_BITS | below(2) << 30;
-            let mut entries: Vec<u32> = (0..65_535.min(4 << bits)).map(|_| entry()).collect();
+            let mut entries: Vec<u32> = (0..65_535.min(4_u64 << bits)).map(|_| entry()).collect();
             *entries.last_mut().unwrap() &= !(1 << 31);
             let packed = PackedLists::of(&entries);
             let lists = packed.to_lists();
