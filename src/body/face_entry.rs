@@ -44,8 +44,8 @@ pub(super) struct Entry {
 pub(super) struct Neighbour<'a, D> {
     patch: Displaced<'a, D>,
     of: EdgeFace,
-    /// Whether the side runs against the edge.
-    is_reversed: bool,
+    /// 1 if the side runs against the edge. A word: a byte here is copied together with the words behind it, one by one.
+    is_reversed: u32,
     inward: BorderSide,
 }
 
@@ -73,7 +73,7 @@ impl<D: Displacement> Neighbour<'_, D> {
         } else {
             ([0.0, border.t], 0.0)
         };
-        Entry { face: of.face, parameters: on_side(of.side, *is_reversed, inside, t), fall }
+        Entry { face: of.face, parameters: on_side(of.side, *is_reversed != 0, inside, t), fall }
     }
 }
 
@@ -90,7 +90,7 @@ impl<D: Displacement> Body<'_, D> {
         let face = self.faces.get(usize::from(of.face))?;
         let Some(Side::Edge { separator, reversed, .. }) = face.sides.get(usize::from(of.side)) else { return None };
         let inward = border.along.inward(&self.cross(edge, separator, border.t), border.tangent, probe);
-        Some(Neighbour { patch: self.patch(face), of, is_reversed: *reversed, inward })
+        Some(Neighbour { patch: self.patch(face), of, is_reversed: u32::from(*reversed), inward })
     }
 
     /// A face of an edge, and the parameters there of a point of the edge.
