@@ -109,6 +109,8 @@ where
         [2, 1] if const { kinds::has::<K, D>([2, 1]) } => all_rows::<D, 2, 6>(rows, s, t),
         [1, 3] if const { kinds::has::<K, D>([1, 3]) } => all_rows::<D, 4, 8>(rows, s, t),
         [3, 1] if const { kinds::has::<K, D>([3, 1]) } => all_rows::<D, 2, 8>(rows, s, t),
+        [3, 5] if const { kinds::has_own::<K, D>([3, 5]) } => all_rows::<D, 6, 24>(rows, s, t),
+        [5, 3] if const { kinds::has_own::<K, D>([5, 3]) } => all_rows::<D, 4, 24>(rows, s, t),
         [4, 4] if const { kinds::has::<K, D>([4, 4]) } => all_rows::<D, 5, 25>(rows, s, t),
         [5, 5] if const { kinds::has::<K, D>([5, 5]) } => all_rows::<D, 6, 36>(rows, s, t),
         [_, columns] if const { kinds::has::<K, D>([0, 0]) } => {
@@ -278,5 +280,18 @@ mod tests {
         assert_eq!(patch.kind(), OWN);
         assert_eq!(patch.evaluate_kinds::<KindSet<OWN>>(0.3, 0.7), all);
         assert_eq!(patch.evaluate_kinds::<KindSet<0>>(0.3, 0.7), CurvedPoint::NOWHERE);
+        // These two have code in such an image alone: its bits are those of the loops.
+        const STEEP: [u32; 2] = [kinds::kind([3, 5], false), kinds::kind([5, 3], false)];
+        let coefficients = Coefficients::Polynomial(&const { entries::<3, 24>() });
+        let [wide, long] = [[3, 5], [5, 3]]
+            .map(|degree| SplineTable { degree, coefficients, ..SplineTable::UNIT_SQUARE }.checked_in_body());
+        assert_eq!(
+            bits(&wide.evaluate_kinds::<KindSet<{ STEEP[0] }>>(0.3, 0.7)),
+            bits(&wide.evaluate_curved(0.3, 0.7))
+        );
+        assert_eq!(
+            bits(&long.evaluate_kinds::<KindSet<{ STEEP[1] }>>(0.3, 0.7)),
+            bits(&long.evaluate_curved(0.3, 0.7))
+        );
     }
 }

@@ -19,7 +19,7 @@ impl<const MASK: u32> Kinds for KindSet<MASK> {
 }
 
 /// Degrees with code of their own.
-const DEGREES: [[u8; 2]; 9] = [[1, 1], [2, 2], [3, 3], [1, 2], [2, 1], [1, 3], [3, 1], [4, 4], [5, 5]];
+const DEGREES: [[u8; 2]; 11] = [[1, 1], [2, 2], [3, 3], [1, 2], [2, 1], [1, 3], [3, 1], [4, 4], [5, 5], [3, 5], [5, 3]];
 
 /// The bit of patches of a degree; those without code of their own share one.
 pub(super) const fn kind(degree: [u8; 2], is_rational: bool) -> u32 {
@@ -28,6 +28,11 @@ pub(super) const fn kind(degree: [u8; 2], is_rational: bool) -> u32 {
         index += 1;
     }
     1 << (index + if is_rational { 16 } else { 0 })
+}
+
+/// [`has`] for code that an image of every kind has no flash for.
+pub(super) const fn has_own<K: Kinds, const D: usize>(degree: [u8; 2]) -> bool {
+    K::MASK != ALL_KINDS && has::<K, D>(degree)
 }
 
 /// Whether polynomial (`D` is 3) or rational patches of this degree are of a set.
