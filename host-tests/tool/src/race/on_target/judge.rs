@@ -46,9 +46,10 @@ pub fn score(rows: &[Row], answers: &[(u32, Answer)], size: f64) -> anyhow::Resu
         let (gap, normal) = (f64::from(answer.gap_m), answer.normal.as_dvec3());
         anyhow::ensure!(gap.is_finite() && normal.is_finite(), "an answer that is no number: {answer:?}");
         distances.push((gap - row.gap).abs() / size);
-        let sine = normal.cross(row.normal).length();
-        normals.push(sine.atan2(normal.dot(row.normal)).to_degrees());
-        forces.push(STIFFNESS * (gap * normal - row.gap * row.normal));
+        let angle = |truth: &DVec3| normal.cross(*truth).length().atan2(normal.dot(*truth)).to_degrees();
+        let Some(truth) = row.normals.iter().min_by(|a, b| angle(a).total_cmp(&angle(b))) else { continue };
+        normals.push(angle(truth));
+        forces.push(STIFFNESS * (gap * normal - row.gap * *truth));
     }
     let spread = |values: &[f64]| Spread::of(values).ok_or_else(|| anyhow::anyhow!("no rows"));
     let instructions: Vec<u32> = answers.iter().map(|(instructions, _)| *instructions).collect();

@@ -16,15 +16,17 @@ const PATIENCE: usize = 700;
 const TURN: f64 = 0.02;
 /// Patches whose distances differ by less than this part of it hold the same point.
 const SAME: f64 = 1e-9;
+/// Difference of distances that single precision does not tell, metres.
+const TIE: f64 = 2e-8;
 const SEED: u64 = 36;
 
 /// A probe and the true answer.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Row {
     /// As the target gets it, metres.
     pub probe: Vec3,
-    /// Unit vector from the closest point to the probe.
-    pub normal: DVec3,
+    /// Unit vectors from the closest points to the probe: along a valley there are two.
+    pub normals: Vec<DVec3>,
     /// Distance, metres.
     pub gap: f64,
     /// The patch that holds the closest point.
@@ -63,10 +65,15 @@ pub fn path(patches: &[NurbsPatch], oracle: &BodyOracle<'_>, ticks: usize) -> Ve
     let mut rows = Vec::with_capacity(ticks);
     while rows.len() < ticks {
         let probe = at.as_vec3();
-        let feet = oracle.nearest(probe.as_dvec3(), 0.0);
+        let feet = oracle.nearest(probe.as_dvec3(), TIE);
         let Some((patch, foot)) = feet.first() else { break };
         let away = probe.as_dvec3() - foot.point;
-        rows.push(Row { probe, normal: away.normalize(), gap: away.length(), patch: *patch });
+        rows.push(Row {
+            probe,
+            normals: feet.iter().map(|(_, foot)| (probe.as_dvec3() - foot.point).normalize()).collect(),
+            gap: away.length(),
+            patch: *patch,
+        });
         since += 1;
         if since > PATIENCE || at.distance(towards) < 10.0 * AHEAD {
             count += 1;
