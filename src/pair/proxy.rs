@@ -175,7 +175,7 @@ const fn is_positive(number: f32) -> bool {
     number > 0.0 && number < f32::INFINITY
 }
 
-/// What a rate a second allows in a tick of a loop of `rate_hz`, and never more than `most`.
+/// The share of a rate a second that a tick of a loop at `rate_hz` takes, at most `most`.
 const fn in_a_tick([way, turn]: [f32; 2], [most_way, most_turn]: [f32; 2], rate_hz: f32) -> [f32; 2] {
     let (way, turn) = (way / rate_hz, turn / rate_hz);
     [if way < most_way { way } else { most_way }, if turn < most_turn { turn } else { most_turn }]
