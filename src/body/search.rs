@@ -19,6 +19,9 @@ pub const MAX_EVALUATIONS: u16 = 512;
 /// Maximum evaluations of a search on a convex body.
 pub const MAX_EVALUATIONS_CONVEX: u16 = 32;
 
+/// Faces from which on lists are long.
+const LARGE: usize = 64;
+
 /// Glances in the time of an evaluation.
 const GLANCES: usize = 5;
 
@@ -105,8 +108,13 @@ impl Search {
         if self.ended.is_some() {
             return;
         }
-        // On a convex body lists are too short for it to pay.
-        if !body.is_convex() && self.descending.is_fresh() && !self.is_seen && self.passes_over(body, probe) {
+        // Elsewhere lists are too short for it to pay.
+        if !body.is_convex()
+            && body.faces.len() >= LARGE
+            && self.descending.is_fresh()
+            && !self.is_seen
+            && self.passes_over(body, probe)
+        {
             return;
         }
         self.is_seen = false;
