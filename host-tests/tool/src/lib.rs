@@ -29,5 +29,6 @@ pub mod reach;
 pub mod report;
 pub mod repository;
 pub mod simulation;
+pub mod spread;
 pub mod talk;
 pub mod timed_tests;

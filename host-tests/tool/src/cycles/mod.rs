@@ -10,7 +10,7 @@ mod trace;
 pub use model::{Core, Cycles};
 pub use trace::{TraceError, estimate};
 
-use crate::race::Spread;
+use crate::spread::Spread;
 
 /// A function of the program that counts, and what a call of it is called.
 #[derive(Clone, Copy, Debug)]

@@ -1,8 +1,8 @@
 //! Instruction budgets of palpate's queries: counts that must not grow.
 
-use super::judge::Spread;
 use super::program::Counted;
 use super::scene::{Scene, Task};
+use crate::spread::Spread;
 use anyhow::Context as _;
 use serde::Deserialize;
 

@@ -2,23 +2,13 @@
 
 use super::program::{Counted, Kind, Line, Run};
 use super::scene::{Query, Scene, Task};
+use crate::spread::Spread;
 use glam::DVec3;
 use palpate_bake::NurbsPatch;
 use palpate_truth::oracle::OraclePoint;
 
 /// A distance that is wrong by more, relative to the patch's size, is a miss.
 pub const MISS: f64 = 1e-4;
-
-/// Median, 99th percentile and maximum.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Spread<T> {
-    /// The median.
-    pub median: T,
-    /// The 99th percentile.
-    pub most: T,
-    /// The maximum.
-    pub worst: T,
-}
 
 /// How a contestant did on a scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,16 +31,6 @@ pub struct Score {
     pub misses: usize,
     /// Queries not answered.
     pub unanswered: usize,
-}
-
-impl<T: Copy + PartialOrd> Spread<T> {
-    /// Of at least one value; none may be NaN.
-    pub fn of(values: &[T]) -> Option<Self> {
-        let mut values = values.to_vec();
-        values.sort_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
-        let at = |percent: usize| values.get(((values.len() * percent).div_ceil(100)).max(1) - 1).copied();
-        Some(Self { median: at(50)?, most: at(99)?, worst: at(100)? })
-    }
 }
 
 /// Judges one run.

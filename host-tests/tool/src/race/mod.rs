@@ -12,8 +12,9 @@ mod program;
 mod scene;
 mod table;
 
+pub use crate::spread::Spread;
 pub use budget::{Budget, Excess, excesses};
-pub use judge::{Score, Spread};
+pub use judge::Score;
 pub use plot::draw;
 pub use program::{Counted, Program, Who};
 pub use scene::{Query, Scene, Task};

@@ -1,7 +1,8 @@
 //! The scores as a table for the terminal and as CSV.
 
-use super::judge::{Score, Spread};
+use super::judge::Score;
 use super::scene::Task;
+use crate::spread::Spread;
 use std::fmt::Write as _;
 
 /// palpate's name among the contestants.

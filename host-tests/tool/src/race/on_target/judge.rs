@@ -1,7 +1,7 @@
 //! Figures of a contestant: the errors of its answers.
 
 use super::path::Row;
-use crate::race::Spread;
+use crate::spread::Spread;
 use glam::DVec3;
 use palpate_rivals::{ANSWER_WORDS, Answer};
 

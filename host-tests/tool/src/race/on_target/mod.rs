@@ -12,11 +12,11 @@ pub use mesh::Triangles;
 pub use path::{AHEAD, Row};
 use path::{path, signed_distance};
 
-use super::judge::Spread;
 use super::table::grouped;
 use crate::cycles::{Core, Root, estimate};
 use crate::firmware::{Board, Pace, Program, Progress};
 use crate::models::ModelFile;
+use crate::spread::Spread;
 use anyhow::Context as _;
 use glam::DVec3;
 use palpate::body::Body;
