@@ -54,7 +54,8 @@ pub fn run_scene(counter: &mut InstructionCounter) -> Result<(), &'static str> {
 /// # Errors
 /// A walk missed a feature or failed, so that its figures would mean nothing.
 pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
-    if cfg!(any(feature = "soft", feature = "around")) {
+    // Of another loop its tick alone is looked at.
+    if cfg!(any(feature = "soft", feature = "around", feature = "protected", feature = "smooth")) {
         return servo::run(counter);
     }
     if cfg!(feature = "cold") {
