@@ -48,7 +48,7 @@ typedef uintptr_t palpate_word;
 #if UINTPTR_MAX == 0xffffffffu
 #define PALPATE_FACE_WORDS 57
 #define PALPATE_EDGE_WORDS 13
-#define PALPATE_BODY_WORDS 24
+#define PALPATE_BODY_WORDS 28
 #define PALPATE_MODE_WORDS 43
 #define PALPATE_SOFT_BODY_WORDS 84
 #define PALPATE_TRACKER_WORDS 76
@@ -58,7 +58,7 @@ typedef uintptr_t palpate_word;
 #else
 #define PALPATE_FACE_WORDS 45
 #define PALPATE_EDGE_WORDS 9
-#define PALPATE_BODY_WORDS 20
+#define PALPATE_BODY_WORDS 23
 #define PALPATE_MODE_WORDS 22
 #define PALPATE_SOFT_BODY_WORDS 56
 #define PALPATE_TRACKER_WORDS 40

@@ -18,7 +18,7 @@ pub const FACE_WORDS: usize = if NARROW { 57 } else { 45 };
 /// Words of an edge in the buffer of a body.
 pub const EDGE_WORDS: usize = if NARROW { 13 } else { 9 };
 /// Words of a body.
-pub const BODY_WORDS: usize = if NARROW { 24 } else { 20 };
+pub const BODY_WORDS: usize = if NARROW { 28 } else { 23 };
 /// Words of a mode in the buffer of a body that gives way.
 pub const MODE_WORDS: usize = if NARROW { 43 } else { 22 };
 /// Words of a body that gives way.
