@@ -100,13 +100,13 @@ fn a_frame_sent_twice() {
     assert!(lost.is_none_or(|lost| lost == [1, 1]));
 }
 
-/// 50 kHz leave 312 instructions a tick, fewer than a tick takes in any phase: the first one overruns.
+/// 100 kHz leave 625 instructions a tick, fewer than a tick takes in any phase: the first one overruns.
 #[test]
 fn a_tick_that_takes_longer_than_its_period() {
     if !is_wanted("a_tick_that_takes_longer_than_its_period") {
         return;
     }
-    let Scene { options } = Scene::parse_from(["scene", "--rate", "50000"]);
+    let Scene { options } = Scene::parse_from(["scene", "--rate", "100000"]);
     let [uart, _] = TRANSPORTS;
     let image = program(Board::M4, &options.scene().unwrap(), uart, &Progress::new()).expect("the image builds");
     let mut emulator = image.start_over(uart).unwrap();
