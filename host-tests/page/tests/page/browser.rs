@@ -81,7 +81,7 @@ impl Page {
             ensure!(began.elapsed() < PATIENCE, "the page does not run: {:?}", page.errors());
             thread::sleep(Duration::from_millis(200));
         }
-        // What is drawn is looked at in pictures alone, and takes nearly all the time where a processor does it.
+        // Only pictures show what is drawn, and drawing takes nearly all the time where a processor does it.
         page.ask("palpate.draw(false)")?;
         Ok(page)
     }
