@@ -18,9 +18,9 @@ const RATIO: f32 = 0.110 / 0.014_25;
 /// each plus 15°; drum 110 mm on a shaft of 14.25 mm; 320 lines, four counts each: 38 µm at a thigh's end; 35° at zero
 /// counts. Source: libnifalcon, `FalconGeometry.h`; its Jacobian has `sin² θ₂` where `sin θ₂ sin θ₃` belongs and is not
 /// followed. 8.9 N: CHAI3D. The frame is libnifalcon's: seen from the front x to the right, y up, z towards the hand;
-/// the origin is moved to the middle of the workspace, 120 mm before the base. At 4 kHz 2,000 N/m and 5 N·s/m are
-/// recommended at most: pressed in simulation the force is stiffness times depth to 2 %, and there is no limit cycle.
-/// At the 3,000 N/m and 20 N·s/m in use on it none is either, but dry friction holds the grip anywhere in a count, and
+/// the origin is moved to the middle of the workspace, 120 mm before the base. A plain wall of 2,000 N/m and 5
+/// N·s/m at 4 kHz, pressed in simulation, gives stiffness times depth to 2 %, without a limit cycle;
+/// [`crate::servo::recommended`] is softer. At the 3,000 N/m and 20 N·s/m in use on it none is either, but dry friction holds the grip anywhere in a count, and
 /// half a count of 65 µm is 3 % of the millimetre that such a wall yields to a hand. The joint range keeps out the
 /// region 80 mm and more to the side, where the forward map's steps leave up to 41 µm. Assumed, because no source
 /// states them: torque of the motors, such that they give 8.9 N in every direction there; friction of a joint; and the

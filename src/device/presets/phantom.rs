@@ -13,8 +13,8 @@ use core::f32::consts::FRAC_PI_2;
 /// link up from level and the second up from hanging. Zero counts is that pose, and its probe the origin: first link
 /// level, second hanging. Resolution is published as 0.03 mm, so 4,000 counts are assumed; maximum force (the force
 /// that the motors reach at the origin along every axis), stiffness and damping too. The frame: x away from the base, z
-/// up. At 4 kHz 1,500 N/m and 5 N·s/m are recommended: pressed in simulation the force is stiffness times depth to 1.4
-/// %, and no count moves.
+/// up. A plain wall of 1,500 N/m and 5 N·s/m at 4 kHz, pressed in simulation, gives stiffness times depth to 1.4 %, and
+/// no count moves; [`crate::servo::recommended`] is softer, so that a hand feels no count either.
 pub const PHANTOM_PREMIUM: Device<SerialArm, 3> = Device {
     kinematics: SerialArm {
         base_height_m: 0.0,

@@ -18,9 +18,9 @@ const ENCODERS: [Encoder; 3] = {
 /// mm out on the short rod's other side. Masses and centres with covers are from there too. Capstans 28.8534, 13.6981
 /// and 13.7281 mm on bodies of 175, 100 and 100 mm; 4,096 counts, so 35 µm at the first link's end; 0.0603, 0.0538 and
 /// 0.0538 N·m/A, 3 A; 5 N, 2,000 N/m; directions: the second motor turns against its body. The frame: x towards the
-/// user at `a = 0`, z up, origin (204.5, 0, 32.5) mm from the pivots' middle. Assumed: maximum damping. At 4 kHz 2,000
-/// N/m and 5 N·s/m are recommended: pressed in simulation the force is stiffness times depth to 1 %, and no count
-/// moves.
+/// user at `a = 0`, z up, origin (204.5, 0, 32.5) mm from the pivots' middle. Assumed: maximum damping. A plain wall
+/// of 2,000 N/m and 5 N·s/m at 4 kHz, pressed in simulation, gives stiffness times depth to 1 %, and no count moves;
+/// [`crate::servo::recommended`] is softer, so that a hand feels no count either.
 pub const POLHEM_V2: Device<LinkageArm, 3> = Device {
     kinematics: LinkageArm {
         linkage: FiveBar {

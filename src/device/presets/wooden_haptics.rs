@@ -12,9 +12,9 @@ use crate::math::vec3;
 /// Directions are those of the driver's USB variant, in which the turntable's encoder counts against its motor. At the
 /// workspace centre the first link's motor is at full duty with 4.8 N along x; along y and z 5 N are within reach. Link
 /// masses 170 and 110 g with centres at 51 and 91 mm, from the same driver; its gravity compensation lifts the second
-/// link at the sum of both centres instead of at the first link's end, which is not followed here. At 4 kHz 1,000 N/m
-/// and 2 to 8 N·s/m are recommended: pressed in simulation the force is stiffness times depth to 1 %, and no count
-/// moves. The joint range and the maximum rate are ours: wide enough for its workspace and for a hand at 3 m/s.
+/// link at the sum of both centres instead of at the first link's end, which is not followed here. A plain
+/// wall of 1,000 N/m and 2 to 8 N·s/m at 4 kHz, pressed in simulation, gives stiffness times depth to 1 %, and no count
+/// moves; [`crate::servo::recommended`] is softer, so that a hand feels no count either. The joint range and the maximum rate are ours: wide enough for its workspace and for a hand at 3 m/s.
 pub const WOODEN_HAPTICS_2016: Device<SerialArm, 3> = Device {
     kinematics: SerialArm {
         base_height_m: 0.080,
