@@ -127,6 +127,7 @@ enum {
     PALPATE_SETTINGS_TEXTURE = 59,         /**< No texture was given, or its share is not between 0 and 1. */
     PALPATE_SETTINGS_COUPLING = 60,        /**< The tool is too light for coupling, surface and rate. */
     PALPATE_SETTINGS_PASSIVITY = 61,       /**< A number of passivity control negative or not finite. */
+    PALPATE_SETTINGS_EASE = 62,            /**< Easing's onset negative or not finite, or its change not positive. */
     PALPATE_PROTECTION_CONTINUOUS = 64,    /**< A motor's continuous torque not positive and finite. */
     PALPATE_PROTECTION_TIME_CONSTANT = 65, /**< A time constant not between 100 and 2,400,000 ticks, or above ten minutes. */
     PALPATE_PROTECTION_SPEED = 66,         /**< A greatest speed not positive. */
@@ -148,6 +149,9 @@ enum {
 const char *palpate_status_text(int32_t status);
 /** A fault (palpate_output::fault) in words that stay for ever; "none" of 0, "unknown" of a code that is none. */
 const char *palpate_fault_text(uint32_t fault);
+
+/** A refusal of homing (palpate_state::refusal) in words, a static string; "none" of 0, "unknown" of any other code. */
+const char *palpate_refusal_text(uint32_t refusal);
 
 /** @name Bodies
  *  @{ */
@@ -262,6 +266,7 @@ typedef struct palpate_touch {
     uint32_t rejected;      /**< 1 if the step was rejected because the distance would have risen. */
     uint32_t searched;    /**< 1 if the tick went to the search for a global start. */
     uint32_t unexplained; /**< 1 if it is farther off than the probe has moved since contact began. */
+    uint32_t too_deep;    /**< 1 if deeper inside than the face's minimum radius of curvature: not the only closest point. */
     uint32_t evaluations; /**< Evaluations of patches spent in the tick. */
 } palpate_touch;
 
@@ -374,7 +379,7 @@ typedef struct palpate_voltage_feed {
 /** A joint: encoder, motor, range. */
 typedef struct palpate_joint {
     float radians_per_count;   /**< Joint angle a count, rad; negative where it counts the other way. */
-    float angle_at_zero;       /**< Joint angle in the middle of count zero, rad. */
+    float angle_at_line;       /**< Joint angle where the count steps from -1 to 0, rad; as Encoder::new in Rust. */
     float torque_at_full;      /**< Joint torque at full duty, N·m; negative where the motor turns the other way. */
     float dry_friction;        /**< N·m, generously; 0 where it is not known. */
     float least_angle;         /**< rad; what lies below is a sensor fault. */
@@ -439,7 +444,7 @@ typedef struct palpate_paddle {
     float mass_moment; /**< kg·m; 0 if balanced or not known. */
 } palpate_paddle;
 
-/** A loop's settings. Begin with palpate_settings_default(). */
+/** A loop's settings. Begin with palpate_settings_recommended(). */
 typedef struct palpate_settings {
     float rate;               /**< Servo rate, Hz, 1 to 100,000. */
     float stiffness;          /**< N/m. */
@@ -460,6 +465,8 @@ typedef struct palpate_settings {
     float passivity_resolution; /**< How far the probe seems to move when every encoder counts one, m. */
     float device_damping;     /**< What the device has at least, for passivity control, N·s/m; 0 to be careful. */
     float device_friction;    /**< The same of dry friction, N. */
+    float ease_onset;         /**< Push over which the damping comes in, N. */
+    float ease_change;        /**< How fast a force may change that no motion explains, N/s; 0: no easing. */
     float max_slew;           /**< How fast the force may grow, N/s; INFINITY for no limit. */
     float safe_damping;       /**< What the motors brake with after a fault, N·s/m; 0: nothing. */
     float link_timeout;       /**< Seconds of silence after which the host is lost; INFINITY where none watches. */
@@ -467,6 +474,7 @@ typedef struct palpate_settings {
     uint32_t settle_ticks;    /**< Ticks of believable sensors before the loop is armed. */
     uint32_t wait_for_homing; /**< 1: the loop waits for #PALPATE_HOMED before it is armed. Its own homing waits anyway. */
     uint32_t leave_weight;    /**< 1: the motors do not carry the links' weight. */
+    uint32_t between_counts;  /**< 1: estimates the position between encoder counts; velocity_corner: rate / 50. */
 } palpate_settings;
 
 /** What a texture may look at. */
@@ -535,6 +543,15 @@ typedef struct palpate_homing {
 
 /** Fills in the defaults: 1 kHz, a soft wall and little force, within what every device that ships takes. */
 palpate_status palpate_settings_default(palpate_settings *settings);
+
+/**
+ * Fills in what Rust recommends for a device: 4 kHz, at most 500 N/m and 2 N·s/m, position between counts, easing.
+ * For a shipped device use device_settings() of its header: two of them are softer.
+ *
+ * @param settings where they go
+ * @param device   the device
+ */
+palpate_status palpate_settings_recommended(palpate_settings *settings, const palpate_device *device);
 /** @} */
 
 /** @name The servo loop
@@ -590,6 +607,8 @@ typedef struct palpate_state {
     uint32_t overruns;      /**< Ticks that overran so far. */
     uint32_t contacts_lost; /**< How often contact ended because no motion explained it. */
     uint32_t rejected_steps;  /**< Rejected steps so far. */
+    uint32_t refusal;       /**< Why homing was refused, 0 if it was not; palpate_refusal_text() has it in words. */
+    uint32_t too_deep;      /**< As palpate_touch::too_deep, while touching. */
     float probe[3];         /**< In the body's frame, m. */
     float point[3];         /**< The witness point, m. */
     float parameters[2];    /**< Its parameters. */

@@ -1,12 +1,13 @@
 //! A device and a loop's settings as numbers.
 
-use crate::pointers::{Plain, finite};
-use crate::status::Status;
+use crate::pointers::{Plain, finite, get, put};
+use crate::status::{Status, code};
 use crate::texture::texture;
 use palpate_core::device::drive::{Feed, VoltageFeed};
-use palpate_core::device::{Device, Encoder, Motor};
+use palpate_core::device::{Device, Encoder, Motor, VelocityMethod};
 use palpate_core::math::Vec3;
-use palpate_core::render::{Coupling, Friction, Passivity};
+use palpate_core::render::{Coupling, Ease, Friction, Passivity};
+use palpate_core::servo::recommended::{self, Recommended};
 use palpate_core::servo::{Rendering, SafeOutput, Safety, Settings};
 
 /// How a bridge feeds a motor; `supply` 0 for an amplifier that controls the current.
@@ -26,7 +27,7 @@ pub struct VoltageNumbers {
 #[repr(C)]
 pub struct JointNumbers {
     pub radians_per_count: f32,
-    pub angle_at_zero: f32,
+    pub angle_at_line: f32,
     pub torque_at_full: f32,
     pub dry_friction: f32,
     pub least_angle: f32,
@@ -72,6 +73,8 @@ pub struct SettingsNumbers {
     pub passivity_resolution: f32,
     pub device_damping: f32,
     pub device_friction: f32,
+    pub ease_onset: f32,
+    pub ease_change: f32,
     pub max_slew: f32,
     pub safe_damping: f32,
     pub link_timeout: f32,
@@ -79,6 +82,7 @@ pub struct SettingsNumbers {
     pub settle_ticks: u32,
     pub wait_for_homing: u32,
     pub leave_weight: u32,
+    pub between_counts: u32,
 }
 
 // SAFETY: numbers alone.
@@ -125,8 +129,7 @@ impl DeviceNumbers {
             max_damping_n_s_per_m: self.max_damping,
         };
         for (index, joint) in self.joints.iter().take(JOINTS).enumerate() {
-            device.encoders[index] =
-                Encoder { radians_per_count: joint.radians_per_count, angle_at_zero_rad: joint.angle_at_zero };
+            device.encoders[index] = Encoder::new(joint.radians_per_count, joint.angle_at_line);
             device.motors[index] = Motor { torque_at_full_n_m: joint.torque_at_full };
             device.feeds[index] = joint.feed.feed()?;
             device.dry_friction_n_m[index] = joint.dry_friction;
@@ -158,6 +161,8 @@ impl SettingsNumbers {
         passivity_resolution: 0.0,
         device_damping: 0.0,
         device_friction: 0.0,
+        ease_onset: 0.0,
+        ease_change: 0.0,
         max_slew: f32::INFINITY,
         safe_damping: 0.0,
         link_timeout: Safety::DEFAULT.link_timeout_s,
@@ -165,7 +170,29 @@ impl SettingsNumbers {
         settle_ticks: Safety::DEFAULT.settle_ticks,
         wait_for_homing: 0,
         leave_weight: 0,
+        between_counts: 0,
     };
+
+    /// The same with the settings recommended for a device.
+    const fn recommended(recommended: &Recommended) -> Self {
+        let Recommended { settings, rendering } = recommended;
+        let (ease_onset, ease_change) = match rendering.ease {
+            Some(ease) => (ease.onset_n, ease.change_n_per_s),
+            None => (0.0, 0.0),
+        };
+        Self {
+            rate: settings.rate_hz,
+            stiffness: settings.stiffness_n_per_m,
+            damping: settings.damping_n_s_per_m,
+            max_force: settings.max_force_n,
+            velocity_corner: settings.velocity_corner_hz,
+            soft_start: settings.soft_start_s,
+            ease_onset,
+            ease_change,
+            between_counts: matches!(rendering.velocity, VelocityMethod::BetweenCounts) as u32,
+            ..Self::DEFAULT
+        }
+    }
 
     /// Rate, stiffness and the like.
     pub fn settings(&self) -> Settings {
@@ -200,14 +227,16 @@ impl SettingsNumbers {
             max_damping_n_s_per_m: self.passivity_damping,
             resolution_m: self.passivity_resolution,
         };
+        let ease = Ease { onset_n: self.ease_onset, change_n_per_s: self.ease_change };
         Ok(Rendering {
+            velocity: if self.between_counts == 0 { VelocityMethod::LowPass } else { VelocityMethod::BetweenCounts },
+            ease: if self.ease_change == 0.0 { None } else { Some(ease) },
             friction: if slips_freely { None } else { Some(friction) },
             texture: texture(self.texture_share)?,
             coupling: if self.coupling_mass == 0.0 { None } else { Some(coupling) },
             passivity: if self.passivity_damping == 0.0 { None } else { Some(passivity) },
             max_slew_n_per_s: self.max_slew,
             compensates_gravity: self.leave_weight == 0,
-            ..Rendering::PLAIN
         })
     }
 
@@ -232,5 +261,23 @@ impl SettingsNumbers {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn palpate_settings_default(settings: *mut SettingsNumbers) -> Status {
     // SAFETY: the caller's place for them.
-    crate::status::code(unsafe { crate::pointers::put(settings, SettingsNumbers::DEFAULT) })
+    code(unsafe { put(settings, SettingsNumbers::DEFAULT) })
+}
+
+/// Fills in the recommended ones of a device.
+///
+/// # Safety
+/// As the header says of all functions.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn palpate_settings_recommended(
+    settings: *mut SettingsNumbers,
+    device: *const DeviceNumbers,
+) -> Status {
+    let recommend = || {
+        // SAFETY: the caller's numbers. Every device has a first joint, and the limits are those of the whole.
+        let device: Device<(), 1> = unsafe { get(device) }?.device(())?;
+        // SAFETY: the caller's place for them.
+        unsafe { put(settings, SettingsNumbers::recommended(&recommended::of(&device))) }
+    };
+    code(recommend())
 }

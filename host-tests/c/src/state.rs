@@ -1,6 +1,7 @@
 //! The state of a loop, as numbers.
 
 use crate::pointers::Plain;
+use palpate_core::device::Refusal;
 use palpate_core::servo::{Output, Remembered, ServoState, Tracked};
 use palpate_core::wire::Report;
 
@@ -46,6 +47,8 @@ pub struct StateNumbers {
     pub overruns: u32,
     pub contacts_lost: u32,
     pub rejected_steps: u32,
+    pub refusal: u32,
+    pub too_deep: u32,
     pub probe: [f32; 3],
     pub point: [f32; 3],
     pub parameters: [f32; 2],
@@ -76,6 +79,8 @@ impl StateNumbers {
             overruns: state.overruns(),
             contacts_lost: state.contacts_lost(),
             rejected_steps: state.rejected_steps(),
+            refusal: state.homing().refusal().map_or(0, |refusal: Refusal| u32::from(refusal.code())),
+            too_deep: u32::from(state.is_too_deep()),
             probe: state.probe().to_array(),
             point: state.witness().witness().surface.point.to_array(),
             parameters: state.witness().witness().parameters,

@@ -2,7 +2,7 @@
 
 use core::ffi::{CStr, c_char};
 use palpate_core::body::{FileError, SoftError};
-use palpate_core::device::{DeviceError, HomingError};
+use palpate_core::device::{DeviceError, HomingError, Refusal};
 use palpate_core::servo::{ConfigError, Fault, ProtectionError, RenderingError, SafetyError, SettingsError};
 
 /// Result of a call. After any value but `Ok` the call had no effect.
@@ -47,6 +47,7 @@ pub enum Status {
     SettingsTexture = 59,
     SettingsCoupling = 60,
     SettingsPassivity = 61,
+    SettingsEase = 62,
     ProtectionContinuous = 64,
     ProtectionTimeConstant = 65,
     ProtectionSpeed = 66,
@@ -105,6 +106,7 @@ impl Status {
             Self::SettingsTexture => c"a texture needs its function, and a share between 0 and 1",
             Self::SettingsCoupling => c"the virtual tool is too light for its coupling and the surface at this rate",
             Self::SettingsPassivity => c"passivity control's parameters must be finite and not negative",
+            Self::SettingsEase => c"easing's onset must be finite and not negative, its change finite and positive",
             Self::ProtectionContinuous => c"a motor's continuous torque must be a positive share of full duty",
             Self::ProtectionTimeConstant => {
                 c"a winding's time constant must be between 100 and 2,400,000 ticks, and at most ten minutes"
@@ -127,7 +129,7 @@ impl Status {
         }
     }
 
-    const ALL: [Self; 53] = [
+    const ALL: [Self; 54] = [
         Self::Ok,
         Self::Null,
         Self::Misaligned,
@@ -166,6 +168,7 @@ impl Status {
         Self::SettingsTexture,
         Self::SettingsCoupling,
         Self::SettingsPassivity,
+        Self::SettingsEase,
         Self::ProtectionContinuous,
         Self::ProtectionTimeConstant,
         Self::ProtectionSpeed,
@@ -262,7 +265,8 @@ impl From<RenderingError> for Status {
             RenderingError::Texture => Self::SettingsTexture,
             RenderingError::Coupling => Self::SettingsCoupling,
             RenderingError::Passivity => Self::SettingsPassivity,
-            // Parts that a C caller cannot choose.
+            RenderingError::Ease => Self::SettingsEase,
+            // A later version of the library may have more.
             _ => Self::OutOfRange,
         }
     }
@@ -354,6 +358,27 @@ pub extern "C" fn palpate_fault_text(fault: u32) -> *const c_char {
         Some(Fault::Magnet) => c"sensor magnet too strong or too weak",
         Some(Fault::Frozen) => c"sensor reading frozen",
         Some(Fault::OtherRate) => c"surface made for another rate",
+    };
+    text.as_ptr()
+}
+
+/// A refusal of homing in words, a static string; "none" for 0, "unknown" for an unknown code.
+#[unsafe(no_mangle)]
+pub extern "C" fn palpate_refusal_text(refusal: u32) -> *const c_char {
+    let known = Refusal::ALL.into_iter().find(|known| u32::from(known.code()) == refusal);
+    let text = match known {
+        None if refusal == 0 => c"none",
+        None => c"unknown",
+        Some(Refusal::Moving) => c"the device was moving",
+        Some(Refusal::NoIndex) => c"a joint did not pass its index mark",
+        Some(Refusal::Sensor) => c"a sensor failed",
+        Some(Refusal::OutOfTolerance) => c"a sensor reads something else than at the reference pose",
+        Some(Refusal::Jammed) => c"a joint is jammed",
+        Some(Refusal::NoStop) => c"a joint found no stop",
+        Some(Refusal::TooFast) => c"a joint moved too fast",
+        Some(Refusal::WrongDirection) => c"a joint moved the wrong way",
+        Some(Refusal::TooLate) => c"homing took too long",
+        Some(Refusal::NotFollowed) => c"a rotor did not follow its field",
     };
     text.as_ptr()
 }

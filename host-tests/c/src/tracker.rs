@@ -38,6 +38,7 @@ pub struct Touch {
     pub rejected: u32,
     pub searched: u32,
     pub unexplained: u32,
+    pub too_deep: u32,
     pub evaluations: u32,
 }
 
@@ -47,7 +48,7 @@ impl Tracking {
         self.probe = probe;
     }
 
-    fn touch(&self) -> Touch {
+    fn touch(&self, body: &Body<'_>) -> Touch {
         let witness = &self.witness;
         let step = self.step.as_ref();
         Touch {
@@ -61,6 +62,7 @@ impl Tracking {
             rejected: u32::from(step.is_some_and(|step| step.outcome == Outcome::Rejected)),
             searched: u32::from(step.is_some_and(|step| step.searched)),
             unexplained: u32::from(step.is_some_and(|step| step.unexplained)),
+            too_deep: u32::from(body.is_too_deep(witness)),
             evaluations: step.map_or(0, |step| u32::from(step.evaluations)),
         }
     }
@@ -154,7 +156,7 @@ pub unsafe extern "C" fn palpate_update_contact(tracker: *mut Handle<Tracking>, 
             body.update_contact(&mut tracking.witness, tracking.probe, &step);
         }
         // SAFETY: the caller's place for it.
-        unsafe { put(touch, tracking.touch()) }
+        unsafe { put(touch, tracking.touch(body)) }
     };
     code(meet())
 }
@@ -178,7 +180,7 @@ pub unsafe extern "C" fn palpate_step(tracker: *mut Handle<Tracking>, probe: *co
         let step = body.step(&Controller::SecondOrder, &mut tracking.witness, Probe::at(probe), PERIOD);
         (tracking.step, tracking.probe) = (Some(step), probe);
         // SAFETY: the caller's place for it.
-        unsafe { put(touch, tracking.touch()) }
+        unsafe { put(touch, tracking.touch(body)) }
     };
     code(step())
 }

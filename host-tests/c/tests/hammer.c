@@ -275,11 +275,13 @@ static palpate_status bad_servo(void)
     /* Up to the timeout they are floats, and none may be NaN; without friction its stiffness is not looked at. */
     no_settings.friction_static = 0.4f, no_settings.friction_dynamic = 0.3f;
     no_settings.texture_share = 0.2f, no_settings.passivity_damping = 1, no_settings.passivity_resolution = 1e-4f;
+    no_settings.ease_onset = 1, no_settings.ease_change = 200;
     no_settings.coupling_stiffness = 500, no_settings.coupling_damping = 3, no_settings.coupling_mass = 0.1f;
     ((float *)&no_settings)[any(offsetof(palpate_settings, max_overruns) / sizeof(float))] = NAN;
     void *no_body = no_handle(&body, sizeof body);
     palpate_status status;
-    switch (any(11)) {
+    switch (any(12)) {
+    case 10: status = palpate_settings_recommended(&no_settings, NULL); break;
     case 0: status = start_arm(one, sizeof *one, &no_arm, &device, &body, &settings, 0); break;
     case 1: status = start_arm(one, sizeof *one, &arm, &no_device, &body, &settings, 0); break;
     case 2: status = start_arm(one, sizeof *one, &arm, &device, &body, &no_settings, 0); break;

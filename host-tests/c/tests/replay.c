@@ -3,34 +3,15 @@
    and modes are in the hash.
 
    replay FILE.palp NUMBERS COUNTS ENABLE_AT */
-#include "palpate.h"
+#include "replayed.h"
 #ifdef MODES_FILE
 #include MODES_FILE
 #endif
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 static palpate_body body;
 static palpate_servo servo;
-
-static void *contents(const char *path, size_t *bytes)
-{
-    FILE *from = fopen(path, "rb");
-    if (!from) exit(2);
-    void *memory = aligned_alloc(8, 1 << 22);
-    *bytes = fread(memory, 1, 1 << 22, from);
-    fclose(from);
-    return memory;
-}
-
-static void good(palpate_status status)
-{
-    if (status == PALPATE_OK) return;
-    printf("replay: %s\n", palpate_status_text(status));
-    exit(1);
-}
 
 static uint32_t hash;
 

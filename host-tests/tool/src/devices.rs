@@ -99,7 +99,9 @@ pub fn own(device: &Path) -> anyhow::Result<OwnDevice> {
     let name = device.to_string_lossy();
     Ok(match named(&name) {
         Some(shipped) => {
-            let file = shipped.file().with_context(|| format!("{name} has less than three joints"))?;
+            let file = shipped.file().with_context(|| {
+                format!("{name} has less than three joints, and so no device file; `--out device.h` takes it")
+            })?;
             OwnDevice::new(file, &name)?
         }
         None => OwnDevice::read(device)?,

@@ -10,7 +10,7 @@ mod schema;
 mod shipped;
 mod table;
 
-pub use c_header::c_header;
+pub use c_header::{c_header, c_preset};
 pub use constant::{settings_source, source};
 pub use preset::Preset;
 pub use read::{DeviceFileError, OwnDevice};

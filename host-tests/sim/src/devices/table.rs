@@ -35,7 +35,7 @@ impl ShippedDevice {
 
     /// Recommended settings: the hand feels the surface and not the loop.
     pub fn recommended(&self) -> Recommended {
-        match self.name {
+        let mut recommended = match self.name {
             "woodenhaptics-2016" => recommended::WOODEN_HAPTICS_2016,
             "polhem-v2" => recommended::POLHEM_V2,
             "phantom-premium" => recommended::PHANTOM_PREMIUM,
@@ -50,7 +50,13 @@ impl ShippedDevice {
                 Preset::FiveBar(device) => recommended::of(device),
                 Preset::Paddle(device) => recommended::of(device),
             },
-        }
+        };
+        // A file that is named like a device that ships may have lower limits.
+        let (limits, settings) = (self.preset.limits(), &mut recommended.settings);
+        settings.stiffness_n_per_m = settings.stiffness_n_per_m.min(limits.stiffness);
+        settings.damping_n_s_per_m = settings.damping_n_s_per_m.min(limits.damping);
+        settings.max_force_n = settings.max_force_n.min(limits.force);
+        recommended
     }
 
     /// Its protection.

@@ -4,7 +4,7 @@
 use crate::devices;
 use anyhow::{Context, bail};
 use clap::Args;
-use palpate_sim::devices::{OwnDevice, c_header, source};
+use palpate_sim::devices::{OwnDevice, c_header, c_preset, source};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -27,6 +27,13 @@ pub struct Arguments {
 /// The refused entry of the file; no output is written then.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let name = arguments.device.to_string_lossy();
+    let is_c = arguments.out.extension().is_some_and(|extension| extension == "h");
+    // One and two joints have no device file.
+    if let (true, Some(shipped)) = (is_c, devices::named(&name).filter(|shipped| shipped.file().is_none())) {
+        write(&arguments.out, &c_preset(shipped))?;
+        println!("{name}: {} joints, written to {}", shipped.preset.feeds().len(), arguments.out.display());
+        return Ok(ExitCode::SUCCESS);
+    }
     let own = devices::own(&arguments.device)?;
     // A copy under another name would lose its remarks without a word.
     let [device, out] = [&arguments.device, &arguments.out].map(|path| path.canonicalize().ok());

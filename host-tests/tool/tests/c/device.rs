@@ -24,6 +24,10 @@ int main(void)
 {
     (void)START_DEVICE;
     (void)START_DEVICE_PROTECTED;
+    palpate_settings settings;
+    if (device_settings(&settings)) return 1;
+    print(&settings, offsetof(palpate_settings, body_origin));
+    print(&settings.between_counts, sizeof settings.between_counts);
     print(&MECHANISM, sizeof MECHANISM);
     print(&DEVICE, sizeof DEVICE);
     print(&PROTECTION, offsetof(palpate_protection, watch_signs));
@@ -48,8 +52,19 @@ fn the_header_of_a_device_has_its_numbers_in_c() {
         let mut gcc = in_c::compiler(Core::Host, "gcc").expect("in the repository");
         gcc.args(["-std=c11", "-Wall", "-Wextra", "-Werror", "-I"]).arg(folder.path()).arg(&source);
         run(gcc.arg("-I").arg(folder.path()).arg(crate::running::library(Core::Host)).args(["-lm", "-o"]).arg(&made));
-        let printed: Vec<f32> =
+        let mut printed: Vec<f32> =
             run(&mut Command::new(&made)).lines().map(|word| f32::from_bits(word.parse().expect("a word"))).collect();
+        let settings = shipped.recommended().settings;
+        let recommended = [
+            settings.rate_hz,
+            settings.stiffness_n_per_m,
+            settings.damping_n_s_per_m,
+            settings.max_force_n,
+            settings.velocity_corner_hz,
+            settings.soft_start_s,
+            f32::from_bits(1),
+        ];
+        assert!(printed.drain(..recommended.len()).eq(recommended), "{}: its settings", shipped.name);
         if shipped.name == "woodenhaptics-2016" {
             assert_eq!(printed, everything::numbers());
         }

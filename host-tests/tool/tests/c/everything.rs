@@ -46,7 +46,8 @@ pub fn numbers() -> Vec<f32> {
     for joint in 0..3 {
         assert_eq!(device.feeds[joint], Feed::Current, "its feed has no numbers");
         let (encoder, [least, greatest]) = (device.encoders[joint], device.joint_range_rad[joint]);
-        all.extend([encoder.radians_per_count, encoder.angle_at_zero_rad, device.motors[joint].torque_at_full_n_m]);
+        // Count zero begins in the calibration pose.
+        all.extend([encoder.radians_per_count, 0.0, device.motors[joint].torque_at_full_n_m]);
         all.extend([device.dry_friction_n_m[joint], least, greatest]);
         all.extend([0.0; 6]);
     }

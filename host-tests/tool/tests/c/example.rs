@@ -43,11 +43,13 @@ fn the_example_in_c_computes_the_bits_of_the_image_in_rust_and_cannot_panic() {
         return;
     }
     let progress = Progress::new();
+    let Demo { options } = Demo::parse_from(["demo"]);
+    let scene = options.scene().expect("the demo's scene");
     let folder = tempfile::tempdir().expect("a folder");
     let elf = folder.path().join("example.elf");
     let example = {
         let _alone = alone();
-        in_c::example(&capped_box(), &elf, &progress).expect("the example builds")
+        in_c::example(&capped_box(), scene.device, true, &elf, &progress).expect("the example builds")
     };
 
     // Another loop would take 40,000 bytes or more: the library holds ten, and the linker keeps the one that is started.
@@ -58,8 +60,6 @@ fn the_example_in_c_computes_the_bits_of_the_image_in_rust_and_cannot_panic() {
     let found = panicking(&elf);
     assert!(found.is_empty(), "these can panic: {found:?}");
 
-    let Demo { options } = Demo::parse_from(["demo"]);
-    let scene = options.scene().expect("the demo's scene");
     let in_c = trace(&options, &scene, &mut example.start_over(Transport::Fifo).expect("the emulator starts"));
     let rust = program(Board::M4, &scene, Transport::Fifo, &progress).expect("the image builds");
     // The same look finds them where they are: what the program around the loop in Rust expects, it says by a panic.

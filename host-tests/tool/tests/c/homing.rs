@@ -5,7 +5,7 @@ use crate::everything::numbers;
 use crate::running::{capped_box, is_wanted, program, run, with_capped_box};
 use palpate::body::Body;
 use palpate::device::presets::WOODEN_HAPTICS_2016;
-use palpate::device::{Counts, Homing, Reference, SerialArm, StopSearch};
+use palpate::device::{Counts, Homing, Reference, Refusal, SerialArm, StopSearch};
 use palpate::math::vec3;
 use palpate::servo::{Config, Event, Fault, Input, Phase, Servo, Settings};
 use palpate_sim::plant::{HandSettings, Plant, PlantSettings, StillHand};
@@ -70,6 +70,7 @@ struct Run {
     armed: u32,
     driven: u32,
     fault: Option<Fault>,
+    refusal: Option<Refusal>,
     counts: Vec<[i32; 3]>,
     marks: Vec<[i32; 2]>,
 }
@@ -111,6 +112,7 @@ fn in_rust(body: &Body<'_>, way: &Way, ticks: usize) -> Run {
         run.driven += u32::from(state.phase() == Phase::Calibrate && state.duties()[0].0 != 0);
         plant.advance(state.duties().map(|duty| duty.0));
     }
+    run.refusal = state.homing().refusal();
     run.fault = state.fault().map(|(fault, _)| fault);
     run
 }
@@ -123,6 +125,11 @@ fn a_loop_finds_its_joints_as_in_rust() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = |name: &str| folder.path().join(name);
     program("tests/home.c", folder.path(), &[]);
+    let words = run(&mut std::process::Command::new(path("program")));
+    let refusals = Refusal::ALL.map(|refusal| refusal.to_string());
+    let faults = Fault::ALL.map(|fault| fault.to_string());
+    let each = |words: &[String]| [&["none".to_owned()], words, &["unknown".to_owned()]].concat();
+    assert_eq!(words.lines().collect::<Vec<_>>(), [each(&refusals), each(&faults)].concat());
     // Arm and device, without what protects it.
     let numbers = numbers();
     fs::write(path("numbers"), bytemuck::cast_slice::<f32, u8>(&numbers)).expect("numbers");
@@ -151,7 +158,10 @@ fn a_loop_finds_its_joints_as_in_rust() {
             home.arg(path("marks"));
         }
         // In a pose that is not the arm's it is soon out of its range.
-        let ended = rust.fault.map_or_else(|| "none".to_owned(), |fault| fault.to_string());
+        let none = || "none".to_owned();
+        let refusal = rust.refusal.map_or_else(none, |refusal| refusal.to_string());
+        let ended = format!("{}: {refusal}", rust.fault.map_or_else(none, |fault| fault.to_string()));
+        assert_eq!(rust.refusal.is_some(), !homes, "{name}: {refusal}");
         let wanted = format!("{:08x} {} {} {ended}", rust.hash, rust.armed, rust.driven);
         assert_eq!(run(&mut home).trim(), wanted, "{name}");
         println!("homed by {name}: {:08x} in C and in Rust, armed after {} ticks, {ended}", rust.hash, rust.armed);

@@ -3,9 +3,11 @@
 
 mod arduino;
 mod bad_arguments;
+mod depth;
 mod device;
 mod everything;
 mod example;
 mod header;
 mod homing;
+mod rendering;
 mod running;
