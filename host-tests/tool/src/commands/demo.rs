@@ -5,7 +5,7 @@ use super::{demo_knob, page, progress, rate, sim};
 use crate::budgets::Budget;
 use crate::devices::Chosen;
 use crate::firmware::{self, Board, Choice, Firmware, Program, Progress, SetUpError, Transport};
-use crate::report::{Page, Summary, plots, write_page};
+use crate::report::{self, Report, Summary};
 use crate::simulation::{self, Trace};
 use anyhow::{Context, bail};
 use clap::{Args, ValueEnum};
@@ -81,11 +81,13 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let replay = replay.as_ref().and_then(|path| path.file_name()).map(|name| name.to_string_lossy());
     let subtitle = format!("{} of {}, {}", scene.felt.name(), scene.model_name(), run.on);
     let net = scene.felt.net(scene.settings.rate_hz);
-    let page =
-        Page { title: "palpate demo", subtitle: &subtitle, figures: &figures, trace: &run.trace, net: &net, replay };
-    write_page(&page, &arguments.report)?;
+    let sections = report::sections(&run.trace, &net, |code| scene.felt.feature_name(code));
+    let link = replay.as_ref().map(|file| [file.as_ref(), "The same run in 3-D, replayed by the firmware's code"]);
+    Report { headline: ["palpate demo", &subtitle], link, figures: &figures, sections: &sections }
+        .write(&arguments.report)?;
     if let Some(picture) = &arguments.picture {
-        fs::write(picture, plots::path(&page)?).with_context(|| format!("cannot write {}", picture.display()))?;
+        fs::write(picture, report::path(&run.trace, &net))
+            .with_context(|| format!("cannot write {}", picture.display()))?;
     }
     println!("palpate demo: {subtitle}");
     for (name, value) in &figures {

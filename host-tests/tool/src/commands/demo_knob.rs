@@ -2,17 +2,16 @@
 
 use super::progress;
 use crate::commission::{Device, KeyHeld};
-use crate::drawing::{BLUE_INK, Drawing, DrawingResult, GREEN_INK, RED_INK, draw, thinned};
 use crate::firmware::{Board, Image, Link as _, LinkError, Program, Progress, SetUpError, Transport};
-use crate::knob::turning::{HostEnd, TICKS, Turned, curve, size, turn, worst_detent};
+use crate::knob::turning::{HostEnd, TICKS, Turned, curve, size, turn, way, worst_detent};
 use crate::knob::{
     DIAL_ZERO, FEELS, KnobLine, NAMES, Recording, SEARCH, SharedKnob, TOLD_OF_SUPPLY, device, record, recorded, servo,
 };
-use crate::report::{Section, write_sections};
+use crate::plot::{Area, Axes, Axis, FIGURE, Ink, Key, Mark, Svg, at_widths, draw};
+use crate::report::{Report, Section};
 use anyhow::Context;
 use palpate::servo::{Fault, Phase};
 use palpate_sim::plant::DialSettings;
-use plotters::prelude::*;
 use std::fs;
 use std::path::Path;
 use std::process::ExitCode;
@@ -38,9 +37,10 @@ pub fn run(board: Board, host: bool, file: &Path, picture: Option<&Path>) -> any
     };
     let subtitle = format!("a knob on a motor with three phases, {on}");
     let figures = figures(&with, &without);
-    write_sections(["palpate demo", &subtitle], &figures, &sections(&with.turned, &without.turned)?, file)?;
+    let sections = sections(&with.turned, &without.turned);
+    Report { headline: ["palpate demo", &subtitle], link: None, figures: &figures, sections: &sections }.write(file)?;
     if let Some(picture) = picture {
-        fs::write(picture, drawn(&with.turned, &without.turned)?)
+        fs::write(picture, drawn(&with.turned, &without.turned))
             .with_context(|| format!("cannot write {}", picture.display()))?;
     }
     println!("palpate demo: {subtitle}");
@@ -155,79 +155,73 @@ fn asked(feel: u8, curve: &[(f64, f64)]) -> Line {
     curve.iter().map(|(angle, _)| (angle.to_degrees(), 1e3 * torque(*angle, &mut click))).collect()
 }
 
-fn sections(with: &[Turned], without: &[Turned]) -> anyhow::Result<Vec<Section<'static>>> {
-    let mut sections = Vec::new();
-    for (index, name) in NAMES.into_iter().enumerate().take(FEELS.len() - 1) {
-        let felt = curve(with, index as u8);
-        let drawing = plot(
-            ["angle, degrees", "torque, mN·m"],
-            &[(asked(index as u8, &felt), GREEN_INK), (in_degrees(&felt), BLUE_INK)],
-        )?;
-        sections.push((
-            name,
-            "Asked for by the table (green), and felt at the shaft: the mean of there and back (blue).",
-            drawing,
-        ));
-    }
-    let free = FEELS.len() as u8 - 1;
-    let lines = [(in_degrees(&curve(without, free)), RED_INK), (in_degrees(&curve(with, free)), BLUE_INK)];
-    sections.push((
-        "cogging",
-        "Felt with nothing asked for: without the map (red) and with it (blue).",
-        plot(["angle, degrees", "torque, mN·m"], &lines)?,
-    ));
+fn sections(with: &[Turned], without: &[Turned]) -> Vec<Section> {
+    let section = |heading: &str, note: &str, axes: [&str; 2], lines: &[Curve<'_>]| Section {
+        heading: heading.to_owned(),
+        note: note.to_owned(),
+        drawing: Some(at_widths(280.0, |svg, area| chart(svg, area, "", axes, lines))),
+        table: None,
+    };
+    let angle = ["angle, degrees", "torque, mN·m"];
+    let mut sections: Vec<Section> = (NAMES.into_iter().enumerate().take(FEELS.len() - 1))
+        .map(|(index, name)| {
+            let feel = index as u8;
+            let ways = [0, 1].map(|back| in_degrees(&way(with, feel, back)));
+            let note = "Torque at the shaft on the way there and back, and what the table asks of a dial at rest.";
+            let [there, back] = ways;
+            let asked = asked(feel, &curve(with, feel));
+            let lines = [("there", Ink::Blue, there), ("back", Ink::Red, back), ("asked", Ink::Green, asked)];
+            section(name, note, angle, &lines)
+        })
+        .collect();
+    sections.push(section("cogging", "Torque with nothing asked for.", angle, &cogging(with, without)));
     let over_time = |of: fn(&Turned) -> f64| -> Line { with.iter().map(|sample| (sample.time, of(sample))).collect() };
-    sections.push((
+    sections.push(section(
         "phases",
-        "The largest current of the three phases: the rotor is aligned, every feel is turned through there and back, the magnet slips.",
-        plot(["time, s", "current, A"], &[(over_time(|sample| sample.current), RED_INK)])?,
+        "The rotor is aligned, every feel is turned through there and back, the magnet slips.",
+        ["time, s", "largest current of the three phases, A"],
+        &[("", Ink::Red, over_time(|sample| sample.current))],
     ));
     if with.iter().any(|sample| sample.report.instructions > 0) {
-        sections.push((
+        sections.push(section(
             "instructions a tick",
             "Counted under the emulator: the loop and the widths of three phases.",
-            plot(
-                ["time, s", "instructions"],
-                &[(over_time(|sample| f64::from(sample.report.instructions)), BLUE_INK)],
-            )?,
+            ["time, s", "instructions"],
+            &[("", Ink::Blue, over_time(|sample| f64::from(sample.report.instructions)))],
         ));
     }
-    Ok(sections)
+    sections
+}
+
+/// A name, an ink and points.
+type Curve<'a> = (&'a str, Ink, Line);
+
+fn cogging(with: &[Turned], without: &[Turned]) -> [Curve<'static>; 2] {
+    let free = FEELS.len() as u8 - 1;
+    [
+        ("without the map", Ink::Red, in_degrees(&curve(without, free))),
+        ("with the map", Ink::Blue, in_degrees(&curve(with, free))),
+    ]
 }
 
 /// The detents and the cogging, one below the other.
-fn drawn(with: &[Turned], without: &[Turned]) -> anyhow::Result<String> {
+fn drawn(with: &[Turned], without: &[Turned]) -> String {
     let felt = curve(with, 0);
-    let free = FEELS.len() as u8 - 1;
-    let detents = [(asked(0, &felt), GREEN_INK), (in_degrees(&felt), BLUE_INK)];
-    let cogging = [(in_degrees(&curve(without, free)), RED_INK), (in_degrees(&curve(with, free)), BLUE_INK)];
-    draw((920, 480), |area| {
-        let (upper, lower) = area.split_vertically(240);
-        chart(&upper, ["angle, degrees", "detents, mN·m"], &detents)?;
-        chart(&lower, ["angle, degrees", "cogging, mN·m"], &cogging)
+    let detents = [("asked", Ink::Green, asked(0, &felt)), ("at the shaft", Ink::Blue, in_degrees(&felt))];
+    draw(FIGURE, 560.0, |svg, area| {
+        let (upper, lower) = area.split_at(280.0);
+        chart(svg, upper, "detents", ["angle, degrees", "torque, mN·m"], &detents);
+        chart(svg, lower, "cogging", ["angle, degrees", "torque, mN·m"], &cogging(with, without));
     })
 }
 
-fn plot(axes: [&str; 2], lines: &[(Line, RGBColor)]) -> anyhow::Result<String> {
-    draw((920, 240), |area| chart(area, axes, lines))
-}
-
-fn chart(area: &Drawing<'_>, [x, y]: [&str; 2], lines: &[(Line, RGBColor)]) -> DrawingResult {
-    let points = || lines.iter().flat_map(|(line, _)| line);
-    let range = |of: fn(&(f64, f64)) -> f64| {
-        let low = points().map(of).fold(f64::INFINITY, f64::min);
-        let high = points().map(of).fold(low + 1e-9, f64::max);
-        let margin = 0.04 * (high - low);
-        (low - margin)..(high + margin)
-    };
-    let (across, up) = (range(|point| point.0), range(|point| point.1));
-    let mut chart =
-        ChartBuilder::on(area).margin(8).x_label_area_size(36).y_label_area_size(56).build_cartesian_2d(across, up)?;
-    chart.configure_mesh().x_desc(x).y_desc(y).light_line_style(TRANSPARENT).draw()?;
-    for (line, ink) in lines {
-        chart.draw_series(LineSeries::new(thinned(line), *ink))?;
-    }
-    Ok(())
+fn chart(svg: &mut Svg, area: Area, title: &str, [x, y]: [&str; 2], lines: &[Curve<'_>]) {
+    let values = |of: fn(&(f64, f64)) -> f64| lines.iter().flat_map(move |(.., line)| line.iter().map(of));
+    let keys: Vec<Key<'_>> =
+        lines.iter().filter(|(name, ..)| !name.is_empty()).map(|(name, ink, _)| (*name, *ink, Mark::Line)).collect();
+    let (x, y) = (Axis::over(x, values(|point| point.0)), Axis::over(y, values(|point| point.1)));
+    let mut chart = Axes { title, x, y, keys: &keys }.on(svg, area);
+    lines.iter().for_each(|(_, ink, line)| chart.line(*ink, 1.5, line.iter().copied()));
 }
 
 /// The cogging of the simulated dial, recorded again over the line of the boards' loop, as the source that the image is

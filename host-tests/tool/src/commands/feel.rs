@@ -6,7 +6,8 @@ use crate::devices::{self, Arms, ShippedDevice};
 use crate::feel::table::Worst;
 use crate::feel::{Crossed, ENCODERS, RATES, Row, Wish, plot, rows, table};
 use crate::models::ModelFile;
-use crate::report::write_sections;
+use crate::plot::at_widths;
+use crate::report::{Report, Section};
 use anyhow::{Context, bail, ensure};
 use clap::{Args, ValueEnum};
 use palpate::servo::Rendering;
@@ -184,18 +185,30 @@ fn write(all: &[(&str, Vec<Row>)], threshold: &Threshold, arguments: &Arguments)
     std::fs::create_dir_all(out).with_context(|| format!("cannot make {}", out.display()))?;
     let csv = out.join("feel.csv");
     table::write_csv(all, &csv).with_context(|| format!("cannot write {}", csv.display()))?;
-    let figures: Vec<(&str, String)> = all.iter().map(|(name, rows)| (*name, table::text(rows))).collect();
-    let note = "How far the probe moves under a hand that rests or slides, and what people feel (approximated).";
-    let mut sections = Vec::new();
+    let worst = all.iter().map(|(name, rows)| (*name, Worst::of(rows)));
+    let mut sections = vec![Section {
+        heading: "The worst of each device".to_owned(),
+        note: "Steps of force at contact, at release and off an edge; what is felt of a rest and a slide, against the \
+               threshold of perception; force in front of the wall; drag in air."
+            .to_owned(),
+        table: Some(Worst::table(worst)),
+        drawing: None,
+    }];
     for (name, rows) in all {
-        sections.push((*name, note, plot::spectra(rows, threshold)?));
+        sections.push(Section {
+            heading: (*name).to_owned(),
+            note: "Steps and ripple in mN. Below: how far the probe moves under a hand that rests or slides, and what \
+                   people feel (approximated)."
+                .to_owned(),
+            table: Some(table::table(rows)),
+            drawing: Some(at_widths(460.0, |svg, area| plot::spectra(svg, area, rows, threshold))),
+        });
     }
-    let lines = all.iter().map(|(name, rows)| Worst::of(rows).line(name)).collect::<Vec<_>>().join("\n");
-    let worst = [("worst", format!("{}\n{lines}", Worst::heading()))];
-    let figures: Vec<(&str, String)> = worst.into_iter().chain(figures).collect();
-    let subtitle = format!("{} Hz", arguments.rate);
+    let subtitle = format!("The loop under a hand, at {} Hz.", arguments.rate);
     let report = out.join("report.html");
-    write_sections(["Feel of each device", &subtitle], &figures, &sections, &report)?;
+    let content =
+        Report { headline: ["Feel of each device", &subtitle], link: None, figures: &[], sections: &sections };
+    content.write(&report)?;
     println!("figures: {}\nreport: {}", csv.display(), report.display());
     Ok(ExitCode::SUCCESS)
 }

@@ -50,7 +50,7 @@ pub fn run(
     std::fs::create_dir_all(out).with_context(|| format!("cannot make {}", out.display()))?;
     let (table, picture) = (out.join("clean.csv"), out.join("clean.svg"));
     write(&named, &table).with_context(|| format!("cannot write {}", table.display()))?;
-    std::fs::write(&picture, plot::clean(&named)?).with_context(|| format!("cannot write {}", picture.display()))?;
+    std::fs::write(&picture, plot::clean(&named)).with_context(|| format!("cannot write {}", picture.display()))?;
     println!("figures: {}\npicture: {}", table.display(), picture.display());
     Ok(ExitCode::SUCCESS)
 }

@@ -2,11 +2,11 @@
 
 use super::felt_scene::FeltScene;
 use super::progress;
-use crate::drawing::View;
 use crate::models::ModelFile;
+use crate::plot::View;
 use anyhow::{Context, ensure};
 use glam::DVec3;
-use palpate::body::{Body, Effort, Soft};
+use palpate::body::{Body, Edge, EdgeFace, Effort, Soft};
 use palpate::field::{FieldBounds, Modal, Mode, Quadratic};
 use palpate::math::Vec3;
 use palpate::patch::{Patch as _, SplinePatch};
@@ -198,6 +198,27 @@ impl Felt {
             Self::Scene(scene) => scene.nets(rate),
             _ => self.patches().into_iter().flat_map(|patch| View::FRONT_RIGHT.net(patch)).collect(),
         }
+    }
+
+    /// A feature by the names of its faces, from its code.
+    pub fn feature_name(&self, code: u16) -> String {
+        let index = code & 0x3fff;
+        let Self::Body { body, labels, .. } = self else {
+            let kind = ["face", "edge"].get(usize::from(code >> 14)).unwrap_or(&"vertex");
+            return if matches!(self, Self::Patch { .. }) { self.name().to_owned() } else { format!("{kind} {index}") };
+        };
+        let name = |face: u16| {
+            labels.get(usize::from(face)).map_or_else(|| face.to_string(), |name| name.trim_matches('"').to_owned())
+        };
+        let on = |edge: &Edge<'_>| edge.faces.into_iter().filter(|side| *side != EdgeFace::NONE).map(|side| side.face);
+        let mut faces: Vec<u16> = match code >> 14 {
+            0 => return name(index),
+            1 => body.edges().get(usize::from(index)).into_iter().flat_map(on).collect(),
+            _ => body.edges().iter().filter(|edge| edge.ends.contains(&index)).flat_map(on).collect(),
+        };
+        faces.sort_unstable();
+        faces.dedup();
+        faces.into_iter().map(name).collect::<Vec<_>>().join(" | ")
     }
 
     /// Its tables as Rust source; a scene's with these limits, a soft body's for a loop of this rate, Hz.

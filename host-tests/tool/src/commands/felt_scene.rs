@@ -2,9 +2,9 @@
 
 use super::felt::SoftModes;
 use super::progress;
-use crate::drawing::View;
 use crate::models::ModelFile;
 use crate::page::{RecordedBody, RecordedScene};
+use crate::plot::View;
 use anyhow::Context;
 use glam::DVec3;
 use palpate::body::{Body, Effort};

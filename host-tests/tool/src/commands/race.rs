@@ -72,8 +72,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     }
     let out = &arguments.out;
     fs::create_dir_all(out).with_context(|| format!("cannot make the folder {}", out.display()))?;
-    for (name, contents) in
-        [("race.csv", race::csv(&scores.concat())?), ("race.svg", race::draw(&scores)?.into_bytes())]
+    for (name, contents) in [("race.csv", race::csv(&scores.concat())?), ("race.svg", race::draw(&scores).into_bytes())]
     {
         let path = out.join(name);
         write_whole(&path, &contents)?;

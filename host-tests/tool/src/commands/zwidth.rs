@@ -8,6 +8,7 @@ use plot::plot;
 use sweeping::{best, sweep_with_bar};
 
 use super::felt::Felt;
+use super::output::write_whole;
 use crate::devices::{self, Arms, ShippedDevice};
 use anyhow::Context;
 use clap::{Args, ValueEnum};
@@ -95,7 +96,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     if let Some(folder) = arguments.plot.parent() {
         std::fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
     }
-    plot(&arguments.plot, &slice, &limits)?;
+    write_whole(&arguments.plot, plot(&slice, &limits).as_bytes())?;
     println!("plot: {}", arguments.plot.display());
     Ok(ExitCode::SUCCESS)
 }

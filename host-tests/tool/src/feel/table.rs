@@ -1,6 +1,7 @@
 //! Rows as text and as CSV, and a device on a line.
 
 use super::rows::Row;
+use crate::report::Table;
 use palpate_sim::feel::{BANDS, Deed, ROUND};
 use std::fmt::Write as _;
 use std::path::Path;
@@ -21,46 +22,66 @@ fn percent(share: f64) -> String {
     format!("{:.1}", share * 100.0)
 }
 
+/// Columns: heading, unit, and how wide it is in text.
+const COLUMNS: [(&str, &str, usize); 14] = [
+    ("hand", "", 22),
+    ("contact", "mN", 8),
+    ("release", "mN", 8),
+    ("any", "mN", 8),
+    ("ripple", "mN", 8),
+    ("by bands", "mN", 24),
+    ("dB", "", 8),
+    ("at Hz", "", 8),
+    ("force, N", "", 9),
+    ("error %", "", 8),
+    ("drag, N", "", 8),
+    ("after", "ms", 7),
+    ("turn mm", "", 8),
+    ("finer", "", 7),
+];
+
+fn cells(Row { script, figures, force_error, turn, finer }: &Row) -> [String; COLUMNS.len()] {
+    let [contact, release, any] =
+        [figures.steps.contact, figures.steps.release, figures.steps.any].map(|step| format!("{:.1}", step * 1e3));
+    [
+        script.name.clone(),
+        contact,
+        release,
+        any,
+        format!("{:.1}", figures.ripple * 1e3),
+        figures.bands.map(|band| format!("{:.1}", band * 1e3)).join(" "),
+        in_words(figures.sensation.level),
+        format!("{:.0}", figures.sensation.frequency),
+        format!("{:.3}", figures.force),
+        or_dash(force_error.map(percent)),
+        or_dash((script.deed == Deed::Air).then(|| format!("{:.3}", figures.drag))),
+        format!("{:.1}", figures.afterglow * 1e3),
+        or_dash(turn.map(|turn| format!("{:.2}", turn * 1e3))),
+        or_dash(finer.map(|factor| format!("{factor}x"))),
+    ]
+}
+
 /// A table of a device's rows; forces in mN, times in ms.
 pub fn text(rows: &[Row]) -> String {
-    let mut text = format!(
-        "{:<22}{:>8}{:>8}{:>8}{:>8}  {:<24}{:>8}{:>8}{:>9}{:>8}{:>8}{:>7}{:>8}{:>7}\n",
-        "hand",
-        "contact",
-        "release",
-        "any",
-        "ripple",
-        "by bands",
-        "dB",
-        "at Hz",
-        "force, N",
-        "error %",
-        "drag, N",
-        "after",
-        "turn mm",
-        "finer"
-    );
-    for Row { script, figures, force_error, turn, finer } in rows {
-        let [contact, release, any] =
-            [figures.steps.contact, figures.steps.release, figures.steps.any].map(|step| format!("{:.1}", step * 1e3));
-        let bands = figures.bands.map(|band| format!("{:.1}", band * 1e3)).join(" ");
-        let drag = (script.deed == Deed::Air).then(|| format!("{:.3}", figures.drag));
-        let _ = writeln!(
-            text,
-            "{:<22}{contact:>8}{release:>8}{any:>8}{:>8.1}  {bands:<24}{:>8}{:>8.0}{:>9.3}{:>8}{:>8}{:>7.1}{:>8}{:>7}",
-            script.name,
-            figures.ripple * 1e3,
-            in_words(figures.sensation.level),
-            figures.sensation.frequency,
-            figures.force,
-            or_dash(force_error.map(percent)),
-            or_dash(drag),
-            figures.afterglow * 1e3,
-            or_dash(turn.map(|turn| format!("{:.2}", turn * 1e3))),
-            or_dash(finer.map(|factor| format!("{factor}x"))),
-        );
+    let head = COLUMNS.map(|(name, ..)| name.to_owned());
+    let mut text = String::new();
+    for row in std::iter::once(head).chain(rows.iter().map(cells)) {
+        for (index, (cell, (.., width))) in row.iter().zip(COLUMNS).enumerate() {
+            let _ = match index {
+                0 => write!(text, "{cell:<width$}"),
+                5 => write!(text, "  {cell:<width$}"),
+                _ => write!(text, "{cell:>width$}"),
+            };
+        }
+        text.push('\n');
     }
     text
+}
+
+/// The same for a report.
+pub fn table(rows: &[Row]) -> Table {
+    let head = COLUMNS.map(|(name, unit, _)| format!("{name}\n{unit}").trim_end().to_owned());
+    Table { head: head.to_vec(), rows: rows.iter().map(|row| cells(row).to_vec()).collect() }
 }
 
 /// Writes the rows of all devices; SI units.
@@ -157,28 +178,46 @@ impl Worst {
 
     /// The heading of [`Self::line`].
     pub fn heading() -> String {
-        format!(
-            "{:<20}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>8}{:>9}{:>9}{:>9}{:>9}",
-            "device",
-            "contact mN",
-            "release",
-            "off edge",
-            "after ms",
-            "rest dB",
-            "slide dB",
-            "finer",
-            "error %",
-            "hover N",
-            "drag N",
-            "turn mm"
-        )
+        Self::in_columns(&Self::COLUMNS.map(|(name, _)| name.to_owned()))
     }
 
     /// A device on a line.
     pub fn line(&self, device: &str) -> String {
+        Self::in_columns(&self.cells(device))
+    }
+
+    /// Devices as a table of a report.
+    pub fn table<'a>(devices: impl Iterator<Item = (&'a str, Self)>) -> Table {
+        let rows = devices.map(|(device, worst)| worst.cells(device).to_vec()).collect();
+        Table { head: Self::COLUMNS.map(|(name, _)| name.replacen(' ', "\n", 1)).to_vec(), rows }
+    }
+
+    const COLUMNS: [(&'static str, usize); 12] = [
+        ("device", 20),
+        ("contact mN", 10),
+        ("release", 10),
+        ("off edge", 10),
+        ("after ms", 10),
+        ("rest dB", 10),
+        ("slide dB", 10),
+        ("finer", 8),
+        ("error %", 9),
+        ("hover N", 9),
+        ("drag N", 9),
+        ("turn mm", 9),
+    ];
+
+    fn in_columns(cells: &[String]) -> String {
+        let column = |(index, (cell, (_, width))): (usize, (&String, (&str, usize)))| {
+            if index == 0 { format!("{cell:<width$}") } else { format!("{cell:>width$}") }
+        };
+        cells.iter().zip(Self::COLUMNS).enumerate().map(column).collect()
+    }
+
+    fn cells(&self, device: &str) -> [String; Self::COLUMNS.len()] {
         let milli = |value: f64| format!("{:.1}", value * 1e3);
-        format!(
-            "{device:<20}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>8}{:>9}{:>9.3}{:>9.3}{:>9}",
+        [
+            device.to_owned(),
             milli(self.contact),
             milli(self.release),
             or_dash(self.off.map(milli)),
@@ -187,9 +226,9 @@ impl Worst {
             or_dash(self.slide.map(in_words)),
             or_dash(self.finer.map(|factor| format!("{factor}x"))),
             percent(self.error),
-            self.hover,
-            self.drag,
+            format!("{:.3}", self.hover),
+            format!("{:.3}", self.drag),
             or_dash(self.turn.map(|turn| format!("{:.2}", turn * 1e3))),
-        )
+        ]
     }
 }

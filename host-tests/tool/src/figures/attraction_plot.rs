@@ -2,43 +2,35 @@
 
 use super::attraction::{Basin, Run, STARTS, Target, start_grid};
 use super::attraction::{Comparison, DRAWN};
-use super::page::{Axes, THICK, THIN, dot, page, scene, sight, view_of};
+use super::page::{THICK, scene, sight, view_of};
 use super::subject::Subject;
-use crate::drawing::{BLUE_INK, Drawing, DrawingResult, RED_INK, View};
-use plotters::element::PathElement;
-use plotters::prelude::*;
+use crate::plot::{Anchor, Area, Axes, Axis, FIGURE, Ink, Mark, Svg, View, draw as svg};
 
-/// Does not converge.
-const DARK: RGBColor = RGBColor(87, 96, 106);
 /// Number of points of the surface that a drawn step passes through.
 const STEP_POINTS: usize = 16;
 /// Maximum number of steps of a path that is drawn with dots.
 const MOST_DOTS: usize = 60;
 
 /// The figure, as SVG text.
-///
-/// # Errors
-/// A panel that cannot be drawn.
-pub fn draw(subject: &Subject, comparison: &Comparison) -> anyhow::Result<String> {
-    page((900, 1640), |area| {
-        let panels = area.split_evenly((DRAWN.len(), 2));
+pub fn draw(subject: &Subject, comparison: &Comparison) -> String {
+    svg(FIGURE, 1_760.0, |svg, area| {
+        let panels = area.split(DRAWN.len(), 2);
         let target = &comparison.targets[comparison.drawn];
         let view = view_of(subject, &[comparison.start, target.closest.parameters]);
         for (row, contender) in DRAWN.into_iter().enumerate() {
             let name = contender.title();
             let letters = [["A", "B"], ["C", "D"], ["E", "F"], ["G", "H"]][row];
             let (run, basin) = (&comparison.runs[row], &comparison.basins[row]);
-            path(&panels[2 * row], &format!("({}) {name}", letters[0]), subject, &view, target, run)?;
+            path(svg, panels[2 * row], &format!("({}) {name}", letters[0]), subject, &view, target, run);
             let share = 100.0 * basin.share();
-            square(&panels[2 * row + 1], &format!("({}) converge from {share:.0} %", letters[1]), target, basin)?;
+            square(svg, panels[2 * row + 1], &format!("({}) converge from {share:.0} %", letters[1]), target, basin);
         }
-        Ok(())
     })
 }
 
-fn path(area: &Drawing<'_>, title: &str, subject: &Subject, view: &View, target: &Target, run: &Run) -> DrawingResult {
+fn path(svg: &mut Svg, area: Area, title: &str, subject: &Subject, view: &View, target: &Target, run: &Run) {
     let probe = target.probe.as_dvec3();
-    let mut chart = scene(area, title, subject, view, &[probe])?;
+    let mut chart = scene(svg, area, (title, &[]), subject, view, &[probe]);
     let seen = |at: [f64; 2]| view.seen(subject.at(at).0.point);
     let mut line = vec![seen(run.path[0])];
     for pair in run.path.windows(2) {
@@ -56,16 +48,15 @@ fn path(area: &Drawing<'_>, title: &str, subject: &Subject, view: &View, target:
         }
     }
     let end = thinned.last().copied().unwrap_or_default();
-    chart.draw_series([PathElement::new(thinned, BLUE_INK.stroke_width(THICK))])?;
+    chart.line(Ink::Blue, THICK, thinned);
     let steps = run.path.iter().take(run.path.len() - usize::from(run.left)).take(MOST_DOTS);
-    chart.draw_series(steps.map(|at| Circle::new(seen(*at), 5, BLUE_INK.filled())))?;
-    sight(&mut chart, view, probe, target.closest.point)?;
-    dot(&mut chart, seen(run.path[0]), "P₀", BLUE_INK, (-38, -34))?;
+    chart.dots(Ink::Blue, 2.5, steps.map(|at| seen(*at)));
+    sight(&mut chart, view, probe, target.closest.point);
+    chart.dot(seen(run.path[0]), "P₀", Ink::Blue, (-20.0, -10.0));
     if run.left {
-        chart.draw_series([EmptyElement::at(end) + Cross::new((0, 0), 14, BLUE_INK.stroke_width(THICK))])?;
-        dot(&mut chart, end, "leaves", BLUE_INK, (18, -8))?;
+        chart.crosses(Ink::Blue, 6.0, [end]);
+        chart.words(end, (10.0, -4.0), Anchor::Start, Ink::Blue, "leaves");
     }
-    Ok(())
 }
 
 /// How much of a step lies in the square.
@@ -77,28 +68,23 @@ fn fraction_inside(from: [f64; 2], to: [f64; 2]) -> f64 {
     })
 }
 
-fn square(area: &Drawing<'_>, title: &str, target: &Target, basin: &Basin) -> DrawingResult {
+fn square(svg: &mut Svg, area: Area, title: &str, target: &Target, basin: &Basin) {
     let half = 0.5 / (STARTS - 1) as f64;
-    let range = (-half, 1.0 + half);
-    let mut chart = Axes { title, x: range, y: range, x_label: "u", y_label: "v" }.chart(area)?;
+    let range = [-half, 1.0 + half];
+    let keys = [("arrives", Ink::Blue, Mark::Ring), ("does not", Ink::Dark, Mark::Fill), ("P*", Ink::Red, Mark::Dot)];
+    let mut chart = Axes { title, x: Axis::linear("u", range), y: Axis::linear("v", range), keys: &keys }.on(svg, area);
     let marks: Vec<_> = start_grid().zip(basin.starts.iter().map(|(found, _)| *found)).collect();
     // A column's neighbouring cells that fail are one rectangle.
     for column in marks.chunks(STARTS) {
         for run in column.chunk_by(|a, b| a.1 == b.1).filter(|run| !run[0].1) {
             let ([u, low], [_, high]) = (run[0].0, run[run.len() - 1].0);
             // A little wider, so that no seam shows between columns.
-            let corners = [(u - 1.05 * half, low - half), (u + 1.05 * half, high + half)];
-            chart.draw_series([Rectangle::new(corners, DARK.filled())])?;
+            chart.fill(Ink::Dark, [[(u - 1.05 * half, low - half), (u + 1.05 * half, high + half)]]);
         }
     }
-    for ([u, v], found) in marks {
-        if found {
-            chart.draw_series([Circle::new((u, v), 8, BLUE_INK.stroke_width(THIN))])?;
-        } else {
-            chart.draw_series([EmptyElement::at((u, v)) + Cross::new((0, 0), 7, WHITE.stroke_width(THIN))])?;
-        }
-    }
+    let of = |wanted: bool| marks.iter().filter(move |(_, found)| *found == wanted).map(|([u, v], _)| (*u, *v));
+    chart.rings(Ink::Blue, 4.0, of(true));
+    chart.crosses(Ink::Paper, 3.0, of(false));
     let [u, v] = target.closest.parameters;
-    chart.draw_series([Circle::new((u, v), 9, RED_INK.filled())])?;
-    Ok(())
+    chart.dots(Ink::Red, 4.5, [(u, v)]);
 }

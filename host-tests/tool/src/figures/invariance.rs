@@ -1,14 +1,12 @@
 //! Figure 6: a start from which the witness point meets a border, follows it and leaves it again on its way.
 
-use super::page::{Axes, Chart, THICK, dot, key, legend, mark_time, page, scene, sight, view_of};
+use super::page::{THICK, scene, sight, view_of};
 use super::subject::{Subject, cell_centres};
-use crate::drawing::{BLUE_INK, DrawingResult, GREEN_INK, RED_INK, TEXT_INK};
+use crate::plot::{Area, Axes, Axis, Chart, FIGURE, Ink, Key, Mark, Svg, draw};
 use glam::DVec3;
 use palpate::math::Vec3;
 use palpate::track::{BoundaryMode, Controller, FirstOrder, Gain, Outcome, Probe, ProjectionErrors, Witness};
 use palpate_truth::oracle::ClosestPoint;
-use plotters::element::{DashedPathElement, PathElement};
-use plotters::prelude::*;
 
 /// The gain, 1/s: `K h = 1/100` a step draws the flow, not jumps.
 pub const GAIN: f32 = 10.0;
@@ -191,78 +189,77 @@ fn second_order(subject: &Subject, probe: Vec3, start: [f64; 2]) -> Vec<DVec3> {
 // Figure 6 as the paper draws it.
 
 /// The figure, as SVG text.
-///
-/// # Errors
-/// A panel that cannot be drawn.
-pub fn draw_passage(subject: &Subject, passage: &Passage) -> anyhow::Result<String> {
-    page((1000, 760), |area| {
-        let panels = area.split_evenly((2, 2));
-        path(&panels[0], subject, passage)?;
+pub fn draw_passage(subject: &Subject, passage: &Passage) -> String {
+    draw(FIGURE, 720.0, |svg, area| {
+        let panels = area.split(2, 2);
+        path(svg, panels[0], subject, passage);
         let border = passage.stretches()[1].first().map_or(BoundaryMode::Interior, |sample| sample.mode);
         let title = format!("(B) mode: 5 interior, {} {}", border as u8, place(border));
-        let mut modes = axes(passage, &title, "mode", (0.6, 6.4)).chart(&panels[1])?;
-        mark(&mut modes, passage)?;
-        modes.draw_series([PathElement::new(steps(passage), BLUE_INK.stroke_width(THICK))])?;
-        errors(&panels[2], passage)?;
+        let mut modes = axes(passage, &title, "mode", [0.6, 6.4], &[]).on(svg, panels[1]);
+        mark(&mut modes, passage);
+        modes.line(Ink::Blue, THICK, steps(passage));
+        errors(svg, panels[2], passage);
         let millimetres = |sample: &Sample| sample.distance * 1e3;
         let (least, most) = (passage.closest.distance * 1e3, passage.samples.first().map_or(1.0, millimetres));
         let room = 0.06 * (most - least);
-        let mut distance =
-            axes(passage, "(D) distance", "‖ΔR‖, mm", (least - room, most + 2.5 * room)).chart(&panels[3])?;
-        mark(&mut distance, passage)?;
-        let floor = vec![(0.0, least), (end(passage), least)];
-        distance.draw_series([DashedPathElement::new(floor, 10, 8, TEXT_INK.stroke_width(1))])?;
-        let line = passage.samples.iter().map(|sample| (sample.time, millimetres(sample)));
-        distance.draw_series(LineSeries::new(line, BLUE_INK.stroke_width(THICK)))?;
-        Ok(())
+        let keys = [("the closest point's", Ink::Text, Mark::Dashed)];
+        let axes = axes(passage, "(D) distance", "‖ΔR‖, mm", [least - room, most + 2.5 * room], &keys);
+        let mut distance = axes.on(svg, panels[3]);
+        mark(&mut distance, passage);
+        distance.dashed(Ink::Text, 1.0, [(0.0, least), (end(passage), least)]);
+        distance.line(Ink::Blue, THICK, passage.samples.iter().map(|sample| (sample.time, millimetres(sample))));
     })
 }
 
-fn path(area: &crate::drawing::Drawing<'_>, subject: &Subject, passage: &Passage) -> DrawingResult {
+fn path(svg: &mut Svg, area: Area, subject: &Subject, passage: &Passage) {
     let view = view_of(subject, passage.samples.iter().map(|sample| &sample.parameters));
     let probe = passage.probe.as_dvec3();
-    let mut chart = scene(area, "(A) path; red dots: ticks of second order", subject, &view, &[probe])?;
-    for (stretch, ink) in passage.stretches().into_iter().zip([BLUE_INK, GREEN_INK, BLUE_INK]) {
-        let line: Vec<_> = stretch.iter().map(|sample| view.seen(sample.point)).collect();
-        chart.draw_series([PathElement::new(line, ink.stroke_width(THICK + 1))])?;
+    let keys = [
+        ("interior", Ink::Blue, Mark::Line),
+        ("on the border", Ink::Green, Mark::Line),
+        ("ticks of second order", Ink::Red, Mark::Dot),
+    ];
+    let mut chart = scene(svg, area, ("(A) path", &keys), subject, &view, &[probe]);
+    for (stretch, ink) in passage.stretches().into_iter().zip([Ink::Blue, Ink::Green, Ink::Blue]) {
+        chart.line(ink, THICK + 0.5, stretch.iter().map(|sample| view.seen(sample.point)));
     }
     let ticks: Vec<_> = passage.second_order.iter().map(|point| view.seen(*point)).collect();
-    chart.draw_series([PathElement::new(ticks.clone(), RED_INK.stroke_width(1))])?;
-    chart.draw_series(ticks.into_iter().map(|tick| Circle::new(tick, 5, RED_INK.filled())))?;
-    sight(&mut chart, &view, probe, passage.closest.point)?;
+    chart.line(Ink::Red, 0.5, ticks.iter().copied());
+    chart.dots(Ink::Red, 2.5, ticks);
+    sight(&mut chart, &view, probe, passage.closest.point);
     let [_, on_border, after] = passage.stretches();
     let named = [(passage.samples.first(), "P₀"), (on_border.first(), "t₁"), (after.first(), "t₂")];
     for (sample, name) in named {
         if let Some(sample) = sample {
-            dot(&mut chart, view.seen(sample.point), name, BLUE_INK, (12, 4))?;
+            chart.dot(view.seen(sample.point), name, Ink::Blue, (7.0, 9.0));
         }
     }
-    Ok(())
 }
 
-fn errors(area: &crate::drawing::Drawing<'_>, passage: &Passage) -> DrawingResult {
-    let mut chart =
-        axes(passage, "(C) projection errors, each over its peak", "Ψ / max |Ψ|", (-1.1, 1.25)).chart(area)?;
-    mark(&mut chart, passage)?;
-    for (axis, name, ink) in [(0, "Ψᵘ", BLUE_INK), (1, "Ψᵛ", RED_INK)] {
+fn errors(svg: &mut Svg, area: Area, passage: &Passage) {
+    let lines = [(0, "Ψᵘ", Ink::Blue), (1, "Ψᵛ", Ink::Red)];
+    let keys = lines.map(|(_, name, ink)| (name, ink, Mark::Line));
+    let title = "(C) projection errors, each over its peak";
+    let mut chart = axes(passage, title, "Ψ / max |Ψ|", [-1.1, 1.25], &keys).on(svg, area);
+    mark(&mut chart, passage);
+    for (axis, _, ink) in lines {
         let peak = passage.samples.iter().map(|sample| sample.errors[axis].abs()).fold(f64::MIN_POSITIVE, f64::max);
-        let line = passage.samples.iter().map(|sample| (sample.time, sample.errors[axis] / peak));
-        chart.draw_series(LineSeries::new(line, ink.stroke_width(THICK)))?.label(name).legend(key(ink));
+        chart.line(ink, THICK, passage.samples.iter().map(|sample| (sample.time, sample.errors[axis] / peak)));
     }
-    legend(&mut chart, SeriesLabelPosition::LowerRight)
 }
 
-fn axes<'a>(passage: &Passage, title: &'a str, y_label: &'a str, y: (f64, f64)) -> Axes<'a> {
-    Axes { title, x: (0.0, end(passage)), y, x_label: "time, s", y_label }
+fn axes<'a>(passage: &Passage, title: &'a str, y_label: &'a str, y: [f64; 2], keys: &'a [Key<'a>]) -> Axes<'a> {
+    let x = Axis::linear("time, s", [0.0, end(passage)]);
+    Axes { title, x, y: Axis::linear(y_label, y), keys }
 }
 
 fn end(passage: &Passage) -> f64 {
     passage.samples.last().map_or(1.0, |sample| sample.time)
 }
 
-fn mark(chart: &mut Chart<'_, '_>, passage: &Passage) -> DrawingResult {
-    let times = [(passage.meets_border, " t₁"), (passage.leaves_border, " t₂"), (passage.arrives, " t₃")];
-    times.into_iter().try_for_each(|(time, name)| mark_time(chart, time, name))
+fn mark(chart: &mut Chart<'_>, passage: &Passage) {
+    let times = [(passage.meets_border, "t₁"), (passage.leaves_border, "t₂"), (passage.arrives, "t₃")];
+    times.into_iter().for_each(|(time, name)| chart.mark(time, name));
 }
 
 /// Where a mode holds the witness point.

@@ -1,16 +1,14 @@
 //! How fast the paper's law and that of second order arrive at a probe that rests, and how far behind one that moves
 //! they are: both with the firmware's own code, in single precision.
 
-use super::page::{Axes, THIN, key, legend, page};
+use super::page::THIN;
 use super::subject::Subject;
 use super::tracking::Configuration;
-use crate::drawing::{BLUE_INK, Drawing, DrawingResult, GREEN_INK, RED_INK, TEXT_INK};
+use crate::plot::{Area, Axes, Axis, FIGURE, Ink, Key, Mark, Svg, draw};
 use palpate::math::Vec3;
 use palpate::track::{Controller, FirstOrder, Probe, Witness};
-use palpate_bake::Axis;
+use palpate_bake::Axis as Parameter;
 use palpate_truth::oracle::Oracle;
-use plotters::element::PathElement;
-use plotters::prelude::*;
 
 /// Beside each other.
 pub const LAWS: [Controller; 2] = [Controller::FirstOrder(FirstOrder::CERTIFIED), Controller::SecondOrder];
@@ -39,7 +37,7 @@ pub struct Rate {
 
 /// Runs to closest points inside a span, on a knot, where two knots cross, and on a border.
 pub fn rates(subject: &Subject, oracle: &Oracle<'_>) -> Vec<Rate> {
-    let knots = [Axis::U, Axis::V].map(|axis| {
+    let knots = [Parameter::U, Parameter::V].map(|axis| {
         let borders = subject.surface.borders(axis);
         borders.get(1).copied().filter(|knot| *knot < 1.0)
     });
@@ -129,47 +127,43 @@ pub fn power(lags: &[Lag], law: usize) -> f64 {
 
 /// Less is drawn as this: single precision holds parameters to 6e-8.
 const LEAST: f64 = 1e-8;
-const INKS: [RGBColor; 4] = [BLUE_INK, GREEN_INK, RED_INK, TEXT_INK];
 
 /// The figure, as SVG text.
-///
-/// # Errors
-/// A panel that cannot be drawn.
-pub fn draw_rates(rates: &[Rate], lags: &[Lag]) -> anyhow::Result<String> {
-    page((1000, 420), |area| {
-        let panels = area.split_evenly((1, 2));
-        arriving(&panels[0], rates)?;
-        following(&panels[1], lags)
+pub fn draw_rates(rates: &[Rate], lags: &[Lag]) -> String {
+    draw(FIGURE, 440.0, |svg, area| {
+        let panels = area.split(1, 2);
+        arriving(svg, panels[0], rates);
+        following(svg, panels[1], lags);
     })
 }
 
 /// Second order as lines with dots, the paper's law as thin lines.
-fn arriving(area: &Drawing<'_>, rates: &[Rate]) -> DrawingResult {
-    let title = "(A) arriving: dots second order, thin the paper's law";
+fn arriving(svg: &mut Svg, area: Area, rates: &[Rate]) {
+    let inks = [Ink::Blue, Ink::Green, Ink::Red, Ink::Text];
+    let keys: Vec<Key<'_>> = rates.iter().zip(inks).map(|(rate, ink)| (rate.place, ink, Mark::Line)).collect();
     let ticks = rates.first().map_or(1, |rate| rate.errors[0].len() - 1);
-    let y = (LEAST.log10(), 0.0);
-    let mut chart =
-        Axes { title, x: (0.0, ticks as f64), y, x_label: "tick", y_label: "log₁₀ ‖x − x*‖" }.chart(area)?;
-    for (Rate { place, errors }, ink) in rates.iter().zip(INKS) {
+    let (x, y) = (Axis::linear("tick", [0.0, ticks as f64]), Axis::log("‖x − x*‖", [LEAST, 1.0]));
+    let title = "(A) arriving: dots second order, thin the paper's law";
+    let mut chart = Axes { title, x, y, keys: &keys }.on(svg, area);
+    for (Rate { errors, .. }, ink) in rates.iter().zip(inks) {
         let [first, second] = [0, 1].map(|law| {
-            let point = |(tick, error): (usize, &f64)| (tick as f64, error.max(LEAST).log10());
+            let point = |(tick, error): (usize, &f64)| (tick as f64, error.max(LEAST));
             errors[law].iter().enumerate().map(point).collect::<Vec<_>>()
         });
-        chart.draw_series([PathElement::new(first, ink.stroke_width(1))])?;
-        chart.draw_series(second.iter().map(|at| Circle::new(*at, 5, ink.filled())))?;
-        chart.draw_series([PathElement::new(second, ink.stroke_width(THIN + 1))])?.label(*place).legend(key(ink));
+        chart.line(ink, 0.5, first);
+        chart.dots(ink, 2.5, second.iter().copied());
+        chart.line(ink, THIN + 0.5, second);
     }
-    legend(&mut chart, SeriesLabelPosition::UpperRight)
 }
 
-fn following(area: &Drawing<'_>, lags: &[Lag]) -> DrawingResult {
-    let title = "(B) following: maximum lag at 4 kHz";
-    let [x_label, y_label] = ["log₁₀ speed, m/s", "log₁₀ ‖x − x*‖"];
-    let mut chart = Axes { title, x: (-2.0, 0.0), y: (LEAST.log10(), 0.0), x_label, y_label }.chart(area)?;
-    for (law, name, ink) in [(0, "the paper's law, certified gain", GREEN_INK), (1, "second order", BLUE_INK)] {
-        let line: Vec<_> = lags.iter().map(|lag| (lag.speed.log10(), lag.errors[law].max(LEAST).log10())).collect();
-        chart.draw_series(line.iter().map(|at| Circle::new(*at, 5, ink.filled())))?;
-        chart.draw_series([PathElement::new(line, ink.stroke_width(THIN + 1))])?.label(name).legend(key(ink));
+fn following(svg: &mut Svg, area: Area, lags: &[Lag]) {
+    let laws = [(0, "the paper's law, certified gain", Ink::Green), (1, "second order", Ink::Blue)];
+    let keys = laws.map(|(_, name, ink)| (name, ink, Mark::Line));
+    let (x, y) = (Axis::log("speed, m/s", [0.01, 1.0]), Axis::log("‖x − x*‖", [LEAST, 1.0]));
+    let mut chart = Axes { title: "(B) following: maximum lag at 4 kHz", x, y, keys: &keys }.on(svg, area);
+    for (law, _, ink) in laws {
+        let line: Vec<_> = lags.iter().map(|lag| (lag.speed, lag.errors[law].max(LEAST))).collect();
+        chart.dots(ink, 2.5, line.iter().copied());
+        chart.line(ink, THIN + 0.5, line);
     }
-    legend(&mut chart, SeriesLabelPosition::UpperLeft)
 }

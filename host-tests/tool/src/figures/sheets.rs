@@ -81,7 +81,7 @@ pub fn body_sheet(touring: &Touring) -> anyhow::Result<Sheet> {
     let owners: std::collections::BTreeSet<u16> =
         slices.iter().flat_map(|slice| slice.cells.iter().flatten().flatten()).map(|feature| feature.code()).collect();
     sheet.row("figure 3", format!("{} regions in two slices", owners.len()));
-    sheet.files.push((format!("{}-figure3.svg", touring.name), draw_regions(&slices)?));
+    sheet.files.push((format!("{}-figure3.svg", touring.name), draw_regions(&slices)));
     let samples = touring.tour();
     let features: Vec<_> = samples.chunk_by(|a, b| a.feature == b.feature).collect();
     let settled = samples.iter().skip(100).map(|sample| sample.excess).fold(0.0, f64::max);
@@ -97,7 +97,7 @@ pub fn body_sheet(touring: &Touring) -> anyhow::Result<Sheet> {
         let time = sample.time;
         writeln!(csv, "{time:.3},{qx:.5},{qy:.5},{qz:.5},{px:.5},{py:.5},{pz:.5},{feature},{u:.7},{v:.7},{excess:.7}")?;
     }
-    sheet.files.push((format!("{}-figure9.svg", touring.name), draw_tour(touring, &samples)?));
+    sheet.files.push((format!("{}-figure9.svg", touring.name), draw_tour(touring, &samples)));
     sheet.files.push((format!("{}-figure9.csv", touring.name), csv));
     Ok(sheet)
 }
@@ -124,7 +124,7 @@ fn invariance(subject: &Subject, progress: impl FnMut(usize, usize)) -> anyhow::
     sheet.row("  |psi_u|, |psi_v|", format!("{}, {}", rises(0), rises(1)));
     sheet.row("  largest rise of ‖ΔR‖", format!("{:.1e} m", passage.largest_rise()));
     sheet.row("  second order", format!("at rest after {} ticks", passage.second_order.len() - 1));
-    sheet.files.push((format!("{}-figure6.svg", subject.name), draw_passage(subject, &passage)?));
+    sheet.files.push((format!("{}-figure6.svg", subject.name), draw_passage(subject, &passage)));
     sheet.files.push((format!("{}-figure6.csv", subject.name), csv));
     Ok(sheet)
 }
@@ -153,7 +153,7 @@ fn attraction(subject: &Subject, options: Options, progress: impl FnMut(usize, u
         let shares = [mean, worst, comparison.shares[drawn][index]].map(|share| format!("{:6.2} %", 100.0 * share));
         sheet.row(format!("  {}", contender.name()), shares.join(" "));
     }
-    sheet.files.push((format!("{}-figure7.svg", subject.name), attraction_plot::draw(subject, &comparison)?));
+    sheet.files.push((format!("{}-figure7.svg", subject.name), attraction_plot::draw(subject, &comparison)));
 
     let mut probes = "probe,qx_mm,qy_mm,qz_mm,distance_mm,u,v".to_owned();
     Contender::ALL.iter().try_for_each(|contender| write!(probes, ",{}", contender.name()))?;
@@ -227,9 +227,9 @@ fn tracking(subject: &Subject) -> anyhow::Result<Sheet> {
             format!("a tick leaves ‖Ψ‖ = {most:.1e} at most, from 0.1 s to {} s", tracking::MOTION),
         );
     }
-    sheet.files.push((format!("{}-figure8.svg", subject.name), draw_tracking(subject, &runs, &certified)?));
+    sheet.files.push((format!("{}-figure8.svg", subject.name), draw_tracking(subject, &runs, &certified)));
     sheet.files.push((format!("{}-figure8.csv", subject.name), csv));
-    sheet.files.push((format!("{}-figure8-limits.svg", subject.name), draw_limits(&limits, &rest)?));
+    sheet.files.push((format!("{}-figure8-limits.svg", subject.name), draw_limits(&limits, &rest)));
     let mut csv = "integrator,curvature_times_distance,predicted_per_s,measured_per_s\n".to_owned();
     for Limit { integrator, product, predicted, measured } in &limits {
         writeln!(csv, "{integrator:?},{product:.1},{predicted:.2},{measured:.2}")?;
@@ -268,6 +268,6 @@ fn rates(subject: &Subject) -> anyhow::Result<Sheet> {
         writeln!(csv, "{speed:.4},{first:.3e},{second:.3e}")?;
     }
     sheet.files.push((format!("{}-lag.csv", subject.name), csv));
-    sheet.files.push((format!("{}-rate.svg", subject.name), draw_rates(&rates, &lags)?));
+    sheet.files.push((format!("{}-rate.svg", subject.name), draw_rates(&rates, &lags)));
     Ok(sheet)
 }

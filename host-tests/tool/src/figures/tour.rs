@@ -1,8 +1,8 @@
 //! Figure 9: a probe on its way around a body of several patches, and Figure 3: the body's Voronoi regions.
 
-use super::page::{Axes, THICK, THIN, dot, font, key, legend, page};
-use crate::drawing::{BLUE_INK, Drawing, DrawingResult, RED_INK, SURFACE_INK, TEXT_INK, View, equal_scale};
+use super::page::{THICK, THIN};
 use crate::models;
+use crate::plot::{Anchor, Area, Axes, Axis, Chart, FIGURE, Ink, Mark, Svg, View, draw};
 use anyhow::{Context as _, ensure};
 use glam::DVec3;
 use palpate::body::{Body, Feature};
@@ -11,8 +11,6 @@ use palpate::track::{Controller, Probe};
 use palpate_bake::BakedBody;
 use palpate_truth::body_oracle::{BodyOracle, claims};
 use palpate_truth::oracle::OraclePoint;
-use plotters::element::PathElement;
-use plotters::prelude::*;
 use std::path::Path;
 
 /// Seconds of a tick.
@@ -167,127 +165,110 @@ impl Touring {
 /// Ticks between the lines from probe to witness point.
 const SNAPSHOT: usize = 40;
 
-/// Pale inks for faces, in their order and then again.
-const FACE_INKS: [RGBColor; 6] = [
-    RGBColor(255, 214, 165),
-    RGBColor(202, 230, 184),
-    RGBColor(187, 216, 247),
-    RGBColor(248, 199, 204),
-    RGBColor(217, 204, 242),
-    RGBColor(246, 238, 172),
-];
-const EDGE_INKS: [RGBColor; 2] = [RGBColor(150, 160, 172), RGBColor(124, 135, 148)];
-const VERTEX_INKS: [RGBColor; 2] = [RGBColor(72, 79, 88), RGBColor(98, 106, 116)];
-
-fn ink(feature: Feature) -> RGBColor {
-    let pick = |inks: &[RGBColor], index: u16| inks[usize::from(index) % inks.len()];
+fn ink(feature: Feature) -> Ink {
     match feature {
-        Feature::Face(index) => pick(&FACE_INKS, index),
-        Feature::Edge(index) => pick(&EDGE_INKS, index),
-        Feature::Vertex(index) => pick(&VERTEX_INKS, index),
+        Feature::Face(index) => Ink::Face(index),
+        Feature::Edge(index) => Ink::Edge(index),
+        Feature::Vertex(index) => Ink::Vertex(index),
     }
 }
 
 /// Figure 9: the way around the body, and `u`, `v` and the active feature over time.
-///
-/// # Errors
-/// A panel that cannot be drawn.
-pub fn draw_tour(touring: &Touring, samples: &[Sample]) -> anyhow::Result<String> {
-    page((1000, 900), |area| {
-        let (upper, lower) = area.split_vertically(1080);
-        around(&upper, touring, samples)?;
-        over_time(&lower, touring, samples)
+pub fn draw_tour(touring: &Touring, samples: &[Sample]) -> String {
+    draw(FIGURE, 860.0, |svg, area| {
+        let (upper, lower) = area.split_at(520.0);
+        around(svg, upper, touring, samples);
+        over_time(svg, lower, touring, samples);
     })
 }
 
-fn around(area: &Drawing<'_>, touring: &Touring, samples: &[Sample]) -> DrawingResult {
-    let area = area.titled("(A) P and Q around the body", font(super::page::TITLE))?;
+fn around(svg: &mut Svg, area: Area, touring: &Touring, samples: &[Sample]) {
     let view = View { turn: -0.55, ..View::FRONT_RIGHT };
     let nets: Vec<_> = touring.body.faces().iter().flat_map(|face| view.net(&face.patch)).collect();
     let path =
         |point: fn(&Sample) -> glam::DVec3| samples.iter().map(|sample| view.seen(point(sample))).collect::<Vec<_>>();
     let probes = path(|sample| sample.probe);
-    let (width, height) = area.dim_in_pixel();
-    let all = nets.iter().flatten().chain(&probes).copied();
-    let (x, y) = equal_scale(all, (f64::from(width), f64::from(height)));
-    let mut chart = ChartBuilder::on(&area).build_cartesian_2d(x, y)?;
-    chart.draw_series(nets.into_iter().map(|line| PathElement::new(line, SURFACE_INK.stroke_width(1))))?;
+    let all: Vec<_> = nets.iter().flatten().chain(&probes).copied().collect();
+    let keys = [("probe Q", Ink::Red, Mark::Line), ("witness point P", Ink::Blue, Mark::Line)];
+    let mut chart = Chart::scene(svg, area, "(A) around the body", &keys, all);
+    chart.lines(Ink::Grey, 0.5, nets);
     let lines = samples.iter().step_by(SNAPSHOT);
-    let lines = lines.map(|sample| vec![view.seen(sample.witness), view.seen(sample.probe)]);
-    chart.draw_series(lines.map(|line| PathElement::new(line, SURFACE_INK.stroke_width(THIN))))?;
-    chart.draw_series([PathElement::new(probes, RED_INK.stroke_width(THICK))])?;
-    chart.draw_series([PathElement::new(path(|sample| sample.witness), BLUE_INK.stroke_width(THICK))])?;
+    chart.lines(Ink::Grey, THIN, lines.map(|sample| vec![view.seen(sample.witness), view.seen(sample.probe)]));
+    chart.line(Ink::Red, THICK, probes);
+    chart.line(Ink::Blue, THICK, path(|sample| sample.witness));
     if let [first, ..] = samples {
-        dot(&mut chart, view.seen(first.witness), "P₀", BLUE_INK, (12, 4))?;
-        dot(&mut chart, view.seen(first.probe), "Q", RED_INK, (-34, -34))?;
+        chart.dot(view.seen(first.witness), "P₀", Ink::Blue, (7.0, 9.0));
+        chart.dot(view.seen(first.probe), "Q", Ink::Red, (-17.0, -10.0));
     }
-    Ok(())
 }
 
-fn over_time(area: &Drawing<'_>, touring: &Touring, samples: &[Sample]) -> DrawingResult {
-    let title = "(B) u, v over the active feature (faces coloured, edges grey, vertices dark)";
-    let axes = Axes { title, x: (0.0, ROUND), y: (0.0, 1.12), x_label: "time, s", y_label: "u, v" };
-    let mut chart = axes.chart(area)?;
+fn over_time(svg: &mut Svg, area: Area, touring: &Touring, samples: &[Sample]) {
+    let keys = [
+        ("u", Ink::Blue, Mark::Line),
+        ("v", Ink::Red, Mark::Line),
+        ("edge", Ink::Edge(0), Mark::Fill),
+        ("vertex", Ink::Vertex(0), Mark::Fill),
+    ];
+    let (x, y) = (Axis::linear("time, s", [0.0, ROUND]), Axis::linear("u, v", [0.0, 1.16]));
+    let title = "(B) u, v over the active feature; faces by name";
+    let mut chart = Axes { title, x, y, keys: &keys }.on(svg, area);
     let stretches = || samples.chunk_by(|a, b| a.feature == b.feature);
     let end = |stretch: &[Sample]| stretch.last().map_or(0.0, |sample| sample.time + PERIOD);
-    let fill = |stretch: &[Sample]| {
-        Rectangle::new([(stretch[0].time, 0.0), (end(stretch), 1.12)], ink(stretch[0].feature).filled())
-    };
-    chart.draw_series(stretches().map(fill))?;
+    for stretch in stretches() {
+        chart.fill(ink(stretch[0].feature), [[(stretch[0].time, 0.0), (end(stretch), 1.16)]]);
+    }
     for stretch in stretches() {
         if let Feature::Face(face) = stretch[0].feature {
             let middle = 0.5 * (stretch[0].time + end(stretch));
-            let style = font(super::page::LABEL - 6).pos(plotters::style::text_anchor::Pos::new(
-                plotters::style::text_anchor::HPos::Center,
-                plotters::style::text_anchor::VPos::Top,
-            ));
-            if end(stretch) - stretch[0].time > 0.06 * ROUND {
-                chart.draw_series([Text::new(touring.face_name(face), (middle, 1.1), style)])?;
+            let name = touring.face_name(face);
+            // As much as its words need of 800 px.
+            if end(stretch) - stretch[0].time > ROUND * (8.0 * name.chars().count() as f64 + 8.0) / 800.0 {
+                chart.words((middle, 1.09), (0.0, 0.0), Anchor::Middle, Ink::Text, &name);
             }
         }
     }
-    for (axis, name, line_ink) in [(0, "u", BLUE_INK), (1, "v", RED_INK)] {
-        let mut named = false;
+    for (axis, line_ink) in [(0, Ink::Blue), (1, Ink::Red)] {
         for stretch in stretches().filter(|stretch| matches!(stretch[0].feature, Feature::Face(_))) {
-            let line: Vec<_> = stretch.iter().map(|sample| (sample.time, f64::from(sample.parameters[axis]))).collect();
-            let drawn = chart.draw_series([PathElement::new(line, line_ink.stroke_width(THICK))])?;
-            if !named {
-                drawn.label(name).legend(key(line_ink));
-                named = true;
-            }
+            chart.line(line_ink, THICK, stretch.iter().map(|sample| (sample.time, f64::from(sample.parameters[axis]))));
         }
     }
-    legend(&mut chart, SeriesLabelPosition::LowerRight)
 }
 
 /// Figure 3: slices through the Voronoi regions.
-///
-/// # Errors
-/// A panel that cannot be drawn.
-pub fn draw_regions(slices: &[Slice; 2]) -> anyhow::Result<String> {
-    page((1000, 520), |area| {
-        let panels = area.split_evenly((1, 2));
-        slices.iter().zip(&panels).try_for_each(|(slice, panel)| draw_slice(panel, slice))
+pub fn draw_regions(slices: &[Slice; 2]) -> String {
+    draw(FIGURE, 480.0, |svg, area| {
+        slices.iter().zip(area.split(1, 2)).for_each(|(slice, panel)| draw_slice(svg, panel, slice));
     })
 }
 
-fn draw_slice(area: &Drawing<'_>, slice: &Slice) -> DrawingResult {
-    let [x, y] = slice.ranges.map(|[low, high]| (1e3 * low, 1e3 * high));
-    let axes = Axes { title: slice.title, x, y, x_label: slice.axes[0], y_label: slice.axes[1] };
-    let mut chart = axes.chart(area)?;
+/// Two corners.
+type Rectangle = [(f64, f64); 2];
+
+fn draw_slice(svg: &mut Svg, area: Area, slice: &Slice) {
+    let [x, y] = slice.ranges.map(|[low, high]| [1e3 * low, 1e3 * high]);
+    let [across, up] = slice.axes;
+    let mut chart =
+        Axes { title: slice.title, x: Axis::linear(across, x), y: Axis::linear(up, y), keys: &[] }.on(svg, area);
     let count = slice.cells.len() as f64;
-    let place = |(low, high): (f64, f64), index: usize| low + (high - low) * index as f64 / count;
+    let place = |[low, high]: [f64; 2], index: usize| low + (high - low) * index as f64 / count;
+    let mut regions: Vec<(Option<Feature>, Vec<Rectangle>)> = Vec::new();
     for (row, cells) in slice.cells.iter().enumerate() {
         let mut column = 0;
         // One rectangle a run of equal cells.
         for run in cells.chunk_by(|a, b| a == b) {
-            let corners = [(place(x, column), place(y, row)), (place(x, column + run.len()), place(y, row + 1))];
-            let fill = run[0].map_or(WHITE, ink);
-            chart.draw_series([Rectangle::new(corners, fill.filled())])?;
+            // A little higher, so that no seam shows between rows.
+            let top = place(y, row + 1) + 0.1 * (y[1] - y[0]) / count;
+            let corners = [(place(x, column), place(y, row)), (place(x, column + run.len()), top)];
             column += run.len();
+            match regions.iter_mut().find(|(owner, _)| *owner == run[0]) {
+                Some((_, rectangles)) => rectangles.push(corners),
+                None => regions.push((run[0], vec![corners])),
+            }
         }
     }
-    let inside = Text::new("body", (0.5 * (x.0 + x.1), 0.5 * (y.0 + y.1)), font(super::page::LABEL).color(&TEXT_INK));
-    chart.draw_series([inside])?;
-    Ok(())
+    for (owner, rectangles) in regions {
+        chart.fill(owner.map_or(Ink::Paper, ink), rectangles);
+    }
+    let middle = (0.5 * (x[0] + x[1]), 0.5 * (y[0] + y[1]));
+    chart.words(middle, (0.0, 0.0), Anchor::Middle, Ink::Text, "body");
 }

@@ -1,16 +1,14 @@
 //! Figure 8: following a moving probe with a good gain, one too high and one too low; and the limit of the gain.
 
-use super::page::{Axes, THICK, THIN, dot, key, legend, page, scene, view_across};
+use super::page::{THICK, THIN, scene, view_across};
 use super::subject::Subject;
-use crate::drawing::{BLUE_INK, Drawing, DrawingResult, GREEN_INK, RED_INK, SURFACE_INK, thinned};
+use crate::plot::{Area, Axes, Axis, FIGURE, Ink, Key, Mark, Svg, draw};
 use anyhow::bail;
 use glam::DVec3;
 use palpate::math::Vec3;
 use palpate::track::{Controller, FirstOrder, Gain, Integrator, Probe, ProjectionErrors, Witness};
 use palpate_truth::baselines::ErrorKinematics;
 use palpate_truth::oracle::Oracle;
-use plotters::element::{DashedPathElement, PathElement};
-use plotters::prelude::*;
 
 /// The paper's step, s.
 pub const PERIOD: f64 = 1e-3;
@@ -232,113 +230,102 @@ pub fn limits(subject: &Subject, oracle: &Oracle<'_>, rest: &Configuration) -> a
 const SNAPSHOT: usize = 12;
 
 /// The figure, as SVG text: runs at the good, the chattering and the slow gain, and those without a gain to choose.
-///
-/// # Errors
-/// A panel that cannot be drawn.
-pub fn draw_tracking(
-    subject: &Subject,
-    runs: &[Vec<Sample>; 3],
-    certified: &[Vec<Sample>; 2],
-) -> anyhow::Result<String> {
-    page((1000, 1140), |area| {
-        let rows = area.split_evenly((3, 1));
-        let (upper, lower) = (rows[0].split_evenly((1, 2)), rows[1].split_evenly((1, 2)));
-        path(&upper[0], subject, &runs[0])?;
-        errors(&upper[1], "(B) K = 50 1/s", &runs[0])?;
-        errors(&lower[0], "(C) K = 1300 1/s: chatter", &runs[1])?;
-        errors(&lower[1], "(D) K = 0.02 1/s: slow", &runs[2])?;
-        lags(&rows[2], [&runs[0], &certified[0], &certified[1]])
+pub fn draw_tracking(subject: &Subject, runs: &[Vec<Sample>; 3], certified: &[Vec<Sample>; 2]) -> String {
+    draw(FIGURE, 1_100.0, |svg, area| {
+        let rows = area.split(3, 1);
+        let (upper, lower) = (rows[0].split(1, 2), rows[1].split(1, 2));
+        path(svg, upper[0], subject, &runs[0]);
+        errors(svg, upper[1], "(B) K = 50 1/s", &runs[0]);
+        errors(svg, lower[0], "(C) K = 1300 1/s: chatter", &runs[1]);
+        errors(svg, lower[1], "(D) K = 0.02 1/s: slow", &runs[2]);
+        lags(svg, rows[2], [&runs[0], &certified[0], &certified[1]]);
     })
 }
 
 /// Smallest error that is drawn: about the resolution of single precision.
 const LEAST: f64 = 1e-8;
 
-fn lags(area: &Drawing<'_>, runs: [&Vec<Sample>; 3]) -> DrawingResult {
+fn lags(svg: &mut Svg, area: Area, runs: [&Vec<Sample>; 3]) {
     let end = runs[0].last().map_or(1.0, |sample| sample.time);
-    let title = "(E) what a tick leaves, powers of ten";
-    let mut chart =
-        Axes { title, x: (0.0, end), y: (LEAST.log10(), 0.0), x_label: "time, s", y_label: "log₁₀ ‖Ψ‖" }.chart(area)?;
     let laws = [
-        ("the paper's law, K = 50 1/s", RED_INK),
-        ("the paper's law, certified gain", GREEN_INK),
-        ("second order", BLUE_INK),
+        ("the paper's law, K = 50 1/s", Ink::Red),
+        ("the paper's law, certified gain", Ink::Green),
+        ("second order", Ink::Blue),
     ];
-    for (run, (name, ink)) in runs.into_iter().zip(laws) {
-        let size = |sample: &Sample| sample.left.max(LEAST).log10();
-        let line: Vec<_> = run.iter().map(|sample| (sample.time, size(sample))).collect();
-        chart.draw_series([PathElement::new(line, ink.stroke_width(THIN + 1))])?.label(name).legend(key(ink));
+    let keys = laws.map(|(name, ink)| (name, ink, Mark::Line));
+    let (x, y) = (Axis::linear("time, s", [0.0, end]), Axis::log("‖Ψ‖", [LEAST, 1.0]));
+    let mut chart = Axes { title: "(E) what a tick leaves", x, y, keys: &keys }.on(svg, area);
+    for (run, (_, ink)) in runs.into_iter().zip(laws) {
+        chart.line(ink, THIN + 0.5, run.iter().map(|sample| (sample.time, sample.left.max(LEAST))));
     }
-    legend(&mut chart, SeriesLabelPosition::UpperRight)
 }
 
-fn path(area: &Drawing<'_>, subject: &Subject, run: &[Sample]) -> DrawingResult {
+fn path(svg: &mut Svg, area: Area, subject: &Subject, run: &[Sample]) {
     // The start is on its own way; after it the lines show how far the witness point lags.
     let lines: Vec<_> =
         run.iter().skip(100).step_by(SNAPSHOT).map(|sample| (sample.parameters, sample.probe)).collect();
     let view = view_across(subject, &lines);
     let probes: Vec<_> = run.iter().map(|sample| sample.probe).collect();
-    let mut chart = scene(area, "(A) tracking, K = 50 1/s", subject, &view, &probes)?;
+    let keys = [("probe", Ink::Red, Mark::Line), ("witness point", Ink::Blue, Mark::Line)];
+    let mut chart = scene(svg, area, ("(A) tracking, K = 50 1/s", &keys), subject, &view, &probes);
     let lines = run.iter().step_by(SNAPSHOT);
-    let lines = lines.map(|sample| vec![view.seen(sample.witness), view.seen(sample.probe)]);
-    chart.draw_series(lines.map(|line| PathElement::new(line, SURFACE_INK.stroke_width(THIN))))?;
-    let path_of =
-        |point: fn(&Sample) -> glam::DVec3| run.iter().map(|sample| view.seen(point(sample))).collect::<Vec<_>>();
-    chart.draw_series([PathElement::new(path_of(|sample| sample.probe), RED_INK.stroke_width(THICK))])?;
-    chart.draw_series([PathElement::new(path_of(|sample| sample.witness), BLUE_INK.stroke_width(THICK))])?;
-    let shown = run.iter().step_by(SNAPSHOT);
-    chart.draw_series(shown.map(|sample| Circle::new(view.seen(sample.witness), 5, BLUE_INK.filled())))?;
+    chart.lines(Ink::Grey, THIN, lines.map(|sample| vec![view.seen(sample.witness), view.seen(sample.probe)]));
+    chart.line(Ink::Red, THICK, run.iter().map(|sample| view.seen(sample.probe)));
+    chart.line(Ink::Blue, THICK, run.iter().map(|sample| view.seen(sample.witness)));
+    chart.dots(Ink::Blue, 2.5, run.iter().step_by(SNAPSHOT).map(|sample| view.seen(sample.witness)));
     if let [first, ..] = run {
-        dot(&mut chart, view.seen(first.witness), "P₀", BLUE_INK, (12, 4))?;
-        dot(&mut chart, view.seen(first.probe), "Q", RED_INK, (-34, -34))?;
+        chart.dot(view.seen(first.witness), "P₀", Ink::Blue, (7.0, 9.0));
+        chart.dot(view.seen(first.probe), "Q", Ink::Red, (-17.0, -10.0));
     }
-    Ok(())
 }
 
-fn errors(area: &Drawing<'_>, title: &str, run: &[Sample]) -> DrawingResult {
+fn errors(svg: &mut Svg, area: Area, title: &str, run: &[Sample]) {
     let end = run.last().map_or(1.0, |sample| sample.time);
-    let mut chart =
-        Axes { title, x: (0.0, end), y: (-1.1, 1.1), x_label: "time, s", y_label: "Ψ / max |Ψ|" }.chart(area)?;
-    for (axis, name, ink) in [(0, "Ψᵘ", BLUE_INK), (1, "Ψᵛ", RED_INK)] {
+    let lines = [(0, "Ψᵘ", Ink::Blue), (1, "Ψᵛ", Ink::Red)];
+    let keys = lines.map(|(_, name, ink)| (name, ink, Mark::Line));
+    let (x, y) = (Axis::linear("time, s", [0.0, end]), Axis::linear("Ψ / max |Ψ|", [-1.1, 1.1]));
+    let mut chart = Axes { title, x, y, keys: &keys }.on(svg, area);
+    for (axis, _, ink) in lines {
         let peak = run.iter().map(|sample| sample.errors[axis].abs()).fold(f64::MIN_POSITIVE, f64::max);
-        let line: Vec<_> = run.iter().map(|sample| (sample.time, sample.errors[axis] / peak)).collect();
-        let line = thinned(&line);
-        chart.draw_series([PathElement::new(line, ink.stroke_width(THIN + 1))])?.label(name).legend(key(ink));
+        chart.line(ink, THIN + 0.5, run.iter().map(|sample| (sample.time, sample.errors[axis] / peak)));
     }
-    legend(&mut chart, SeriesLabelPosition::UpperRight)
 }
 
 /// The limits of stability: predictions as lines, measurements as dots.
-///
-/// # Errors
-/// A panel that cannot be drawn.
-pub fn draw_limits(limits: &[Limit], rest: &Configuration) -> anyhow::Result<String> {
-    page((720, 460), |area| {
-        let x = limits.iter().map(|limit| limit.product).fold(0.0, f64::max) + 0.1;
+pub fn draw_limits(limits: &[Limit], rest: &Configuration) -> String {
+    draw(720.0, 480.0, |svg, area| {
+        let end = limits.iter().map(|limit| limit.product).fold(0.0, f64::max) + 0.1;
+        let runs = [
+            (Integrator::RungeKutta4, "Runge–Kutta: 2.785 / (h (1 + κ ‖ΔR‖))", Ink::Green),
+            (Integrator::Heun, "Euler and Heun: 2 / (h (1 + κ ‖ΔR‖))", Ink::Blue),
+            (Integrator::Euler, "", Ink::Blue),
+        ];
+        let named = runs[..2].iter().map(|(_, name, ink)| (*name, *ink, Mark::Line));
+        let others = [
+            ("measured", Ink::Text, Mark::Dot),
+            ("Heun, measured", Ink::Blue, Mark::Ring),
+            ("the paper's 1250 1/s", Ink::Red, Mark::Dashed),
+        ];
+        let keys: Vec<Key<'_>> = named.chain(others).collect();
         // Both lines from the start on: 2.785 / h at most.
-        let y = 2_900.0;
+        let (x, y) = (Axis::linear("κ ‖ΔR‖", [0.0, end]), Axis::linear("K, 1/s", [0.0, 2_900.0]));
         let title = "Maximum stable gain, step 1 ms: lines predicted, marks measured";
-        let x_label = "κ ‖ΔR‖";
-        let mut chart = Axes { title, x: (0.0, x), y: (0.0, y), x_label, y_label: "K, 1/s" }.chart(area)?;
-        for (integrator, name, ink, radius) in [
-            (Integrator::RungeKutta4, "Runge–Kutta: 2.785 / (h (1 + κ ‖ΔR‖))", GREEN_INK, 7),
-            (Integrator::Heun, "Euler (dots), Heun (rings): 2 / (h (1 + κ ‖ΔR‖))", BLUE_INK, 11),
-            (Integrator::Euler, "", BLUE_INK, 6),
-        ] {
-            let of_this = || limits.iter().filter(move |limit| limit.integrator == integrator);
-            if !name.is_empty() {
-                let at = |step: i32| f64::from(step) * x / 100.0;
-                let predicted = |x: f64| f64::from(integrator.stability_bound()) / (PERIOD * (1.0 + x));
-                let line = (0..=100).map(|step| (at(step), predicted(at(step))));
-                chart.draw_series(LineSeries::new(line, ink.stroke_width(THIN)))?.label(name).legend(key(ink));
+        let mut chart = Axes { title, x, y, keys: &keys }.on(svg, area);
+        for (integrator, name, ink) in runs {
+            let points = limits.iter().filter(|limit| limit.integrator == integrator);
+            let points = points.map(|limit| (limit.product, limit.measured));
+            if integrator == Integrator::Heun {
+                chart.rings(ink, 6.0, points)
+            } else {
+                chart.dots(ink, 3.0, points)
             }
-            let style = if integrator == Integrator::Heun { ink.stroke_width(THIN) } else { ink.filled() };
-            chart.draw_series(of_this().map(|limit| Circle::new((limit.product, limit.measured), radius, style)))?;
+            if !name.is_empty() {
+                let at = |step: i32| f64::from(step) * end / 100.0;
+                let predicted = |x: f64| f64::from(integrator.stability_bound()) / (PERIOD * (1.0 + x));
+                chart.line(ink, THIN, (0..=100).map(|step| (at(step), predicted(at(step)))));
+            }
         }
         let product = rest.curvature * rest.distance;
-        let cross = vec![(0.0, PAPER_LIMIT), (product, PAPER_LIMIT), (product, 0.0)];
-        let dashed = DashedPathElement::new(cross, 10, 8, RED_INK.stroke_width(THIN));
-        chart.draw_series([dashed])?.label("the paper's 1250 1/s").legend(key(RED_INK));
-        legend(&mut chart, SeriesLabelPosition::UpperRight)
+        chart.dashed(Ink::Red, THIN, [(0.0, PAPER_LIMIT), (product, PAPER_LIMIT), (product, 0.0)]);
     })
 }

@@ -14,6 +14,8 @@ const UNTIL_FELT: u32 = SEARCH.ticks() + 1_200;
 const WAY: u32 = 4_800;
 /// Length of a way, radians: a whole number of detents and of the finest cogging.
 const FAR: f64 = std::f64::consts::TAU / 4.0;
+/// How far a hand presses into end stops, radians.
+const INTO_STOPS: f64 = 0.06;
 /// Ticks between two feels, in which the hand moves to the start of the next one.
 const BETWEEN: u32 = 800;
 /// Ticks after the magnet has slipped.
@@ -86,15 +88,17 @@ fn grip(dial: &mut Dial, tick: u32) -> (u8, Option<usize>) {
         }
         return (FEELS.len() as u8 - 1, None);
     }
-    let rate = FAR / f64::from(WAY) * f64::from(SETTINGS.rate_hz);
-    let start = DIAL_ZERO - 0.5 * FAR;
+    let ends = FEELS.get(index as usize).and_then(|feel| feel.ends);
+    let far = ends.map_or(FAR, |ends| f64::from(ends.between_rad[1] - ends.between_rad[0]) + 2.0 * INTO_STOPS);
+    let rate = far / f64::from(WAY) * f64::from(SETTINGS.rate_hz);
+    let start = DIAL_ZERO - 0.5 * far;
     let (aim, rate, way) = match within.checked_sub(BETWEEN) {
         None => {
             let share = f64::from(within + 1) / f64::from(BETWEEN);
             (dial.angle() + (start - dial.angle()) * share, 0.0, None)
         }
-        Some(gone) if gone < WAY => (start + FAR * f64::from(gone) / f64::from(WAY), rate, Some(0)),
-        Some(gone) => (start + FAR * f64::from(2 * WAY - gone) / f64::from(WAY), -rate, Some(1)),
+        Some(gone) if gone < WAY => (start + far * f64::from(gone) / f64::from(WAY), rate, Some(0)),
+        Some(gone) => (start + far * f64::from(2 * WAY - gone) / f64::from(WAY), -rate, Some(1)),
     };
     dial.hold(Fingers { rate, ..Fingers::clamp(aim) });
     (index as u8, way)
@@ -130,9 +134,8 @@ impl HostEnd {
     }
 }
 
-/// The torque over the angle in one feel: angles a third of a degree apart, radians, and the mean of there and back,
-/// N·m, which is without friction and damping.
-pub fn curve(turned: &[Turned], feel: u8) -> Vec<(f64, f64)> {
+/// Angles a third of a degree apart, radians, and the mean torque there and back, N·m; `None` where a way has none.
+fn by_angle(turned: &[Turned], feel: u8) -> impl Iterator<Item = (f64, [Option<f64>; 2])> {
     const STEP: f64 = std::f64::consts::PI / 540.0;
     let mut sums = std::collections::BTreeMap::<i64, [(f64, u32); 2]>::new();
     for sample in turned.iter().filter(|sample| sample.feel == feel) {
@@ -142,9 +145,17 @@ pub fn curve(turned: &[Turned], feel: u8) -> Vec<(f64, f64)> {
         *count += 1;
     }
     let mean = |(sum, count): (f64, u32)| (count > 0).then(|| sum / f64::from(count));
-    sums.into_iter()
-        .filter_map(|(place, [there, back])| Some((place as f64 * STEP, 0.5 * (mean(there)? + mean(back)?))))
-        .collect()
+    sums.into_iter().map(move |(place, ways)| (place as f64 * STEP, ways.map(mean)))
+}
+
+/// The torque over the angle in one feel, as the mean of there and back, N·m, which is without friction and damping.
+pub fn curve(turned: &[Turned], feel: u8) -> Vec<(f64, f64)> {
+    by_angle(turned, feel).filter_map(|(angle, [there, back])| Some((angle, 0.5 * (there? + back?)))).collect()
+}
+
+/// The torque over the angle in one feel on one way, 0 there and 1 back.
+pub fn way(turned: &[Turned], feel: u8, way: usize) -> Vec<(f64, f64)> {
+    by_angle(turned, feel).filter_map(|(angle, torques)| Some((angle, (*torques.get(way)?)?))).collect()
 }
 
 /// Maximum relative error of the detents' peak torques on the ways. A peak is the maximum torque within three tenths of

@@ -1,33 +1,8 @@
-//! Parts shared by all drawings: inks, the view of a surface, and SVG text.
+//! Surfaces seen from the side, as lines on the page.
 
-use anyhow::anyhow;
 use glam::DVec3;
 use palpate::patch::Patch;
-use plotters::coord::Shift;
-use plotters::prelude::*;
 use std::ops::Range;
-
-pub const BLUE_INK: RGBColor = RGBColor(31, 111, 235);
-pub const RED_INK: RGBColor = RGBColor(209, 36, 47);
-pub const GREEN_INK: RGBColor = RGBColor(26, 127, 55);
-pub const SURFACE_INK: RGBColor = RGBColor(174, 182, 191);
-pub const TEXT_INK: RGBColor = RGBColor(27, 31, 36);
-
-/// More points than a screen has pixels show nothing more.
-const MOST_POINTS: usize = 1_800;
-
-pub type Drawing<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-pub type DrawingResult = Result<(), Box<dyn std::error::Error>>;
-
-/// Draws into an SVG of this size.
-pub fn draw(size: (u32, u32), content: impl FnOnce(&Drawing<'_>) -> DrawingResult) -> anyhow::Result<String> {
-    let mut text = String::new();
-    {
-        let area = SVGBackend::with_string(&mut text, size).into_drawing_area();
-        content(&area).and_then(|()| Ok(area.present()?)).map_err(|error| anyhow!("cannot draw a plot: {error}"))?;
-    }
-    Ok(text)
-}
 
 /// A parallel view from above the horizon.
 #[derive(Clone, Copy, Debug)]
@@ -93,23 +68,4 @@ pub fn equal_scale(
     let half = 0.52 * (high.0 - low.0).max((high.1 - low.1) * width / height);
     let (x, y) = (0.5 * (low.0 + high.0), 0.5 * (low.1 + high.1));
     ((x - half)..(x + half), (y - half * height / width)..(y + half * height / width))
-}
-
-/// Keeps the minimum and the maximum of each bin, so that no peak is lost.
-pub fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
-    if points.len() <= MOST_POINTS {
-        return points.to_vec();
-    }
-    let bin = points.len().div_ceil(MOST_POINTS / 2);
-    let by_value = |a: &&(f64, f64), b: &&(f64, f64)| a.1.total_cmp(&b.1);
-    points
-        .chunks(bin)
-        .flat_map(|chunk| {
-            let mut pair: Vec<_> =
-                chunk.iter().min_by(by_value).into_iter().chain(chunk.iter().max_by(by_value)).collect();
-            pair.sort_by(|a, b| a.0.total_cmp(&b.0));
-            pair
-        })
-        .copied()
-        .collect()
 }
