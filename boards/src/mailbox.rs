@@ -2,11 +2,11 @@
 
 use crate::letter::Letter;
 use crate::writing::Writing;
-use core::sync::atomic::{AtomicU32, Ordering};
 use palpate::commission::Jog;
 use palpate::render::Feel;
 use palpate::scene::Command;
 use palpate::wire::{Answer, Dial, Marked, Modes, Reading, View};
+use portable_atomic::{AtomicU32, Ordering};
 
 /// A `static` of the board: the ticks done, for the watchdog; the commands that came; what a device that is being set
 /// up reads.

@@ -1,8 +1,8 @@
 //! A bank: a body, and who holds it.
 
 use core::cell::UnsafeCell;
-use core::sync::atomic::{AtomicU32, Ordering};
 use palpate::body::{Body, BodyBuffer, Edge, Effort, Face, FileError, Side, TickLimit};
+use portable_atomic::{AtomicU32, Ordering};
 
 /// The holder of a bank.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

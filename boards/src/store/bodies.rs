@@ -4,10 +4,10 @@ use super::bank::Bank;
 use super::incoming::{Incoming, refusal};
 use crate::Uploads;
 use core::cell::{Cell, UnsafeCell};
-use core::sync::atomic::{AtomicBool, Ordering};
 use palpate::body::{Body, Effort};
 use palpate::scene::BodyStore;
 use palpate::wire::{Upload, UploadError};
+use portable_atomic::{AtomicBool, Ordering};
 
 /// Two banks for bodies of at most `WORDS` words (four bytes), `FACES` and `EDGES`. A `static`.
 pub struct Bodies<const WORDS: usize, const FACES: usize, const EDGES: usize> {

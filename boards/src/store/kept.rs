@@ -5,11 +5,11 @@ use super::incoming::{Incoming, refusal};
 use crate::Uploads;
 use core::cell::{Cell, RefCell};
 use core::hint::black_box;
-use core::sync::atomic::{AtomicBool, Ordering};
 use embedded_storage::nor_flash::NorFlash;
 use palpate::body::{Body, Effort, FileError};
 use palpate::scene::BodyStore;
 use palpate::wire::{CHUNK, Upload, UploadError};
+use portable_atomic::{AtomicBool, Ordering};
 
 /// A part of a chip's flash, or of what stands in for it, that is read where it lies.
 #[derive(Clone, Copy, Debug)]

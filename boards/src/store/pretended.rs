@@ -2,8 +2,8 @@
 
 use super::Region;
 use core::fmt;
-use core::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use embedded_storage::nor_flash::{ErrorType, NorFlash, NorFlashError, NorFlashErrorKind, ReadNorFlash};
+use portable_atomic::{AtomicBool, AtomicU32, Ordering};
 
 /// As the STM32G4's: erased by 2 KB, written by double words, each once. A `static`.
 pub struct PretendedFlash<const WORDS: usize> {
