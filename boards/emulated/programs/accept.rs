@@ -28,7 +28,7 @@ fn main() -> ! {
     static mut QUEUE: Queue<Ticks, 16> = Queue::new();
 
     let Some(peripherals) = Peripherals::take() else { panic!("they are taken here and nowhere else") };
-    let reset = BOARD.reset.reason();
+    let reset = BOARD.reset_reason();
     let settings = Settings::new(BOARD.clock);
     let (producer, ticks) = QUEUE.split();
     let made = Loop::new(This, Wired::new(&BOARD), &settings, reset, producer, &MAILBOX);

@@ -4,20 +4,6 @@
 #![no_std]
 #![no_main]
 
-use cortex_m::peripheral::Peripherals;
-use cortex_m_rt::entry;
-use palpate_emulated::board::BOARD;
-use palpate_emulated::budget;
-use palpate_emulated::timer::InstructionCounter;
-use semihosting::println;
+use palpate_emulated::{budget, program};
 
-#[entry]
-fn main() -> ! {
-    if let Some(core) = Peripherals::take()
-        && let Err(reason) = budget::run_file(&mut InstructionCounter::new(&BOARD, core.SYST))
-    {
-        println!("{reason}");
-        semihosting::process::exit(1);
-    }
-    semihosting::process::exit(0)
-}
+program!(budget::alone(budget::run_file));

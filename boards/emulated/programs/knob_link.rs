@@ -66,7 +66,7 @@ fn TIMER0() {
     } else if let Some((feel, records)) = free(|section| HANDED_OVER.borrow(section).take()) {
         let pins = KnobPins::new(&BOARD, FifoLink::open());
         let settings = Settings { jog: Some(JOG), ..Settings::new(BOARD.clock) };
-        let knob_loop = LOOP.insert(Bench::new(This, pins, &settings, BOARD.reset.reason(), records, &MAILBOX));
+        let knob_loop = LOOP.insert(Bench::new(This, pins, &settings, BOARD.reset_reason(), records, &MAILBOX));
         if let Some(feel) = feel {
             let _ = knob_loop.restore(feel);
         }

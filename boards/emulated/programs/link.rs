@@ -120,7 +120,7 @@ fn TIMER0() {
         servo_loop.board().report();
     } else if let Some(records) = free(|section| HANDED_OVER.borrow(section).take()) {
         let pins = Pins::new(&BOARD, FifoLink::open());
-        *LOOP = Some(Bench::new(This, pins, &Settings::new(BOARD.clock), BOARD.reset.reason(), records, &MAILBOX));
+        *LOOP = Some(Bench::new(This, pins, &Settings::new(BOARD.clock), BOARD.reset_reason(), records, &MAILBOX));
         BOARD.start_timer(SETTINGS.rate_hz);
     }
 }

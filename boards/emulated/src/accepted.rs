@@ -12,7 +12,8 @@ use palpate_bench::{Felt, NotObeyed, Panel, Passive, Watchdog};
 
 use crate::board::Board;
 use crate::body::{Chosen, Felt as Surface, Mechanism, SERVO, WIRING};
-use crate::timer::{Clock, InstructionCounter};
+use crate::processor::{Clock, Ticks};
+use crate::timer::InstructionCounter;
 
 /// The servo of the image.
 pub struct This;
@@ -95,7 +96,7 @@ pub struct Instructions(InstructionCounter);
 impl Instructions {
     /// Takes SysTick.
     pub fn new(board: &Board, systick: SYST) -> Self {
-        Self(InstructionCounter::new(board, systick))
+        Self(InstructionCounter::new(board, Ticks::new(systick)))
     }
 }
 

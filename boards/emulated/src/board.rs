@@ -1,5 +1,7 @@
 //! Where one emulated board differs from another, and the one that this image is for.
 
+use palpate::servo::ResetReason;
+
 use crate::reset::ResetRegister;
 
 /// A board's clock and addresses.
@@ -13,19 +15,19 @@ pub struct Board {
     pub timer_interrupt: u16,
     /// Address of the first APB UART.
     pub uart: usize,
-    /// Why the chip was reset.
-    pub reset: ResetRegister,
+    /// Says why the chip was reset, if anything does.
+    pub reset: Option<ResetRegister>,
 }
 
 impl Board {
-    /// mps2-an386, a Cortex-M4F, and mps2-an500, a Cortex-M7 (application notes AN386 and AN500): around the core they
-    /// are the same.
+    /// mps2-an386, a Cortex-M4F, mps2-an500, a Cortex-M7, and mps2-an385, a Cortex-M3 (application notes of these
+    /// numbers): around the core they are the same.
     pub const DESIGN_KIT: Self = Self {
         clock: 25_000_000,
         timer: 0x4000_0000,
         timer_interrupt: 8,
         uart: 0x4000_4000,
-        reset: ResetRegister::DESIGN_KIT,
+        reset: Some(ResetRegister::DESIGN_KIT),
     };
 
     /// mps2-an505, a Cortex-M33 (application note AN505; the secure aliases of its peripherals).
@@ -34,9 +36,24 @@ impl Board {
         timer: 0x5000_0000,
         timer_interrupt: 3,
         uart: 0x5020_0000,
-        reset: ResetRegister::SSE_200,
+        reset: Some(ResetRegister::SSE_200),
     };
+
+    /// The emulator's own machine `virt` for RISC-V: its time, its interrupt controller (CLINT), its UART.
+    pub const VIRT: Self =
+        Self { clock: 10_000_000, timer: 0x0200_0000, timer_interrupt: 0, uart: 0x1000_0000, reset: None };
+
+    /// Why the chip was reset: power, where nothing says.
+    pub fn reset_reason(&self) -> ResetReason {
+        self.reset.map_or(ResetReason::PowerOn, |register| register.reason())
+    }
 }
 
 /// The board that this image is for, chosen by `build.rs`.
-pub const BOARD: Board = if cfg!(board = "m33") { Board::AN505 } else { Board::DESIGN_KIT };
+pub const BOARD: Board = if cfg!(board = "m33") {
+    Board::AN505
+} else if cfg!(target_arch = "riscv32") {
+    Board::VIRT
+} else {
+    Board::DESIGN_KIT
+};

@@ -5,7 +5,6 @@ mod cogging {
     include!("../knob_cogging.rs");
 }
 
-use cortex_m::peripheral::SYST;
 use palpate::commission::Wiring;
 use palpate::device::drive::Field;
 use palpate::device::sensor::Frozen;
@@ -54,14 +53,8 @@ pub struct KnobLoop<L> {
 
 impl<L: Link> KnobLoop<L> {
     /// A loop before its first tick.
-    pub fn new(board: &Board, link: L, systick: SYST) -> Self {
-        Self {
-            link,
-            state: SERVO.start_after(board.reset.reason()),
-            frozen: Frozen::AS5047P,
-            counter: InstructionCounter::new(board, systick),
-            silent_ticks: 0,
-        }
+    pub fn new(board: &Board, link: L, counter: InstructionCounter) -> Self {
+        Self { link, state: SERVO.start_after(board.reset_reason()), frozen: Frozen::AS5047P, counter, silent_ticks: 0 }
     }
 
     /// One tick.

@@ -9,7 +9,7 @@ use palpate_bench::{Board as BenchBoard, NotObeyed, Panel, Passive, Watchdog};
 
 use crate::board::Board;
 use crate::link::Link;
-use crate::timer::Clock;
+use crate::processor::Clock;
 
 /// Ticks in a row without any frame after which the host is taken for gone and the emulator ends.
 const SILENT_TICKS: u32 = 5;

@@ -3,14 +3,14 @@
 use core::cell::Cell;
 
 use cortex_m::interrupt::{Mutex, free};
-use cortex_m::peripheral::Peripherals;
 use palpate::wire::Record;
 use palpate::wire::telemetry::{Consumer, Queue, Recorder};
 
 use crate::board::Board;
 use crate::link::Link;
+use crate::processor::Clock;
 use crate::servo_loop::ServoLoop;
-use crate::timer::Clock;
+use crate::timer::InstructionCounter;
 
 /// Records that wait for the sender, at most; one place of the queue stays free.
 pub const PLACES: usize = 16;
@@ -36,8 +36,8 @@ impl<L: Link> RecordedLoop<L> {
     /// Takes what was handed over; `None` if there is nothing.
     pub fn take(board: &Board, link: impl FnOnce() -> L) -> Option<Self> {
         let recorder = free(|section| HANDED_OVER.borrow(section).take())?;
-        let core = Peripherals::take()?;
-        Some(Self { servo_loop: ServoLoop::new(board, link(), core.SYST), recorder, clock: Clock::start(board) })
+        let counter = InstructionCounter::take(board)?;
+        Some(Self { servo_loop: ServoLoop::new(board, link(), counter), recorder, clock: Clock::start(board) })
     }
 
     /// One tick and its telemetry.

@@ -1,6 +1,5 @@
 //! One tick: a frame in, the servo, a frame out. The timer's interrupt calls it.
 
-use cortex_m::peripheral::SYST;
 use palpate::device::Counts;
 use palpate::servo::{Deadline, Event, Input};
 use palpate::wire::frame::{self, MAX_FRAME, Received};
@@ -32,13 +31,8 @@ pub struct ServoLoop<L> {
 
 impl<L: Link> ServoLoop<L> {
     /// A loop before its first tick.
-    pub fn new(board: &Board, link: L, systick: SYST) -> Self {
-        Self {
-            link,
-            state: SERVO.start_after(board.reset.reason()),
-            counter: InstructionCounter::new(board, systick),
-            silent_ticks: 0,
-        }
+    pub fn new(board: &Board, link: L, counter: InstructionCounter) -> Self {
+        Self { link, state: SERVO.start_after(board.reset_reason()), counter, silent_ticks: 0 }
     }
 
     /// One tick.

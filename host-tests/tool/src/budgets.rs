@@ -105,6 +105,10 @@ pub fn soft_choice(board: Board) -> Result<Choice, BudgetError> {
 /// If it does not run to its end, or says something else than figures.
 pub fn measure(board: Board, progress: &Progress) -> Result<Figures, BudgetError> {
     let mut all = figures(&Program::prepare(board, "budget", &[], progress)?.run(Pace::Counting)?)?;
+    // Of a core without floats, its plain loop alone.
+    if !board.has_floats() {
+        return Ok(all);
+    }
     // Each other loop is an image of its own: two loops in one would share code that each alone has for itself.
     let other = |feature, name: &str| -> Result<Vec<(String, u32)>, BudgetError> {
         let counted = figures(&Program::prepare(board, "budget", &[feature], progress)?.run(Pace::Counting)?)?;

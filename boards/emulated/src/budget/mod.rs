@@ -21,7 +21,20 @@ mod tally;
 
 pub use tally::Tally;
 
+use crate::board::BOARD;
 use crate::timer::InstructionCounter;
+use semihosting::println;
+
+/// A program that counts, then ends the emulator.
+pub fn alone(count: fn(&mut InstructionCounter) -> Result<(), &'static str>) -> ! {
+    if let Some(mut counter) = InstructionCounter::take(&BOARD)
+        && let Err(reason) = count(&mut counter)
+    {
+        println!("{reason}");
+        semihosting::process::exit(1);
+    }
+    semihosting::process::exit(0)
+}
 
 /// Measures and prints the figures of the knob's tick.
 ///

@@ -5,8 +5,14 @@ use semihosting::println;
 /// Counts above this are all in the last bin.
 const BINS: usize = 4_096;
 
-/// Instructions of a bin: the ticks of a soft body are longer than there are bins.
-const WIDTH: u32 = if cfg!(feature = "soft") { 4 } else { 1 };
+/// Instructions of a bin: ticks of a soft body, of many bodies and of a core without floats are longer than there are bins.
+const WIDTH: u32 = if cfg!(any(board = "m0", board = "riscv-imc")) {
+    32
+} else if cfg!(any(feature = "soft", all(feature = "scene", target_arch = "riscv32"))) {
+    4
+} else {
+    1
+};
 
 /// How often each count came.
 pub struct Tally {

@@ -27,7 +27,7 @@ pub struct Arguments {
     #[arg(long, default_value_t = 500_000)]
     baud: u32,
     /// Emulated board instead of a device
-    #[arg(long, value_enum)]
+    #[arg(long, value_parser = Board::cortex_f())]
     emulator: Option<Board>,
     /// Image for the emulator, built before; default: build it now
     #[arg(long, value_name = "ELF", requires = "emulator")]

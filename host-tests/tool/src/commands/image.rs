@@ -15,7 +15,7 @@ pub const EXCEPTION_FRAME: i64 = 4 * (8 + 18 + 1);
 #[derive(Args, Debug)]
 pub struct Arguments {
     /// Board
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_parser = Board::cortex_f(), default_value = "m4")]
     board: Board,
     /// Program: `uart` or `fifo`
     #[arg(long, default_value = "uart")]

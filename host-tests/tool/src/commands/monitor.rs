@@ -47,7 +47,7 @@ pub struct Arguments {
     #[arg(long, value_enum, value_name = "COMMAND", conflicts_with = "emulator", help_heading = "A device at a port")]
     send: Option<Sent>,
     /// Emulated board with a simulated hand, instead of a device
-    #[arg(long, value_enum, help_heading = "An emulated board")]
+    #[arg(long, value_parser = Board::cortex_f(), help_heading = "An emulated board")]
     emulator: Option<Board>,
     #[command(flatten, next_help_heading = "An emulated board")]
     scene: SceneOptions,

@@ -35,7 +35,7 @@ pub struct Arguments {
     #[arg(long)]
     without_peers: bool,
     /// Race on this emulated board
-    #[arg(long, conflicts_with_all = ["out", "without_peers"])]
+    #[arg(long, value_parser = Board::cortex_f(), conflicts_with_all = ["out", "without_peers"])]
     board: Option<Board>,
     /// Bodies of the race on a board; default: all
     #[arg(long, requires = "board", num_args = 1.., value_parser = COURSES)]

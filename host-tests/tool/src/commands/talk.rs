@@ -31,7 +31,7 @@ pub struct Arguments {
     #[arg(long, default_value_t = 500_000)]
     baud: u32,
     /// Emulated board with a simulated arm over two capped boxes
-    #[arg(long, value_enum, group = "where")]
+    #[arg(long, value_parser = Board::cortex_f(), group = "where")]
     emulator: Option<Board>,
     /// The boards' loop compiled for the host, with the same arm
     #[arg(long, group = "where")]

@@ -2,7 +2,7 @@
 
 use crate::repository::{self, NoRepository};
 use clap::ValueEnum;
-use clap::builder::PossibleValue;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use std::path::PathBuf;
 
 /// An emulated board. All run the same programs.
@@ -15,11 +15,30 @@ pub enum Board {
     M7,
     /// mps2-an505, a Cortex-M33.
     M33,
+    /// virt, with floats in single precision and compressed instructions.
+    Riscv,
+    /// virt without floats and atomics.
+    RiscvImc,
+    /// mps2-an385, a Cortex-M3 that runs the code of a Cortex-M0: no floats, no division.
+    M0,
 }
 
 impl Board {
     /// Every board.
-    pub const ALL: [Self; 3] = [Self::M4, Self::M7, Self::M33];
+    pub const ALL: [Self; 6] = [Self::M4, Self::M7, Self::M33, Self::Riscv, Self::RiscvImc, Self::M0];
+    /// Whether its core computes in single precision by itself.
+    pub const fn has_floats(self) -> bool {
+        !matches!(self, Self::RiscvImc | Self::M0)
+    }
+
+    /// Those whose images run every program and are proved: the Cortex-M cores with floats.
+    pub const CORTEX_F: [Self; 3] = [Self::M4, Self::M7, Self::M33];
+
+    /// Takes one of [`Self::CORTEX_F`] from the command line.
+    pub fn cortex_f() -> impl TypedValueParser<Value = Self> {
+        let named = |name: String| Self::CORTEX_F.into_iter().find(|board| board.name() == name);
+        PossibleValuesParser::new(Self::CORTEX_F.map(Self::name)).map(move |name| named(name).unwrap_or_default())
+    }
 
     /// The word for it on the command line.
     pub const fn name(self) -> &'static str {
@@ -27,6 +46,9 @@ impl Board {
             Self::M4 => "m4",
             Self::M7 => "m7",
             Self::M33 => "m33",
+            Self::Riscv => "riscv",
+            Self::RiscvImc => "riscv-imc",
+            Self::M0 => "m0",
         }
     }
 
@@ -36,6 +58,9 @@ impl Board {
             Self::M4 => "Cortex-M4F",
             Self::M7 => "Cortex-M7",
             Self::M33 => "Cortex-M33",
+            Self::Riscv => "RISC-V RV32IMAFC",
+            Self::RiscvImc => "RISC-V RV32IMC",
+            Self::M0 => "Cortex-M0",
         }
     }
 
@@ -45,6 +70,8 @@ impl Board {
             Self::M4 => "mps2-an386",
             Self::M7 => "mps2-an500",
             Self::M33 => "mps2-an505",
+            Self::Riscv | Self::RiscvImc => "virt",
+            Self::M0 => "mps2-an385",
         }
     }
 
@@ -53,6 +80,9 @@ impl Board {
         match self {
             Self::M4 | Self::M7 => "thumbv7em-none-eabihf",
             Self::M33 => "thumbv8m.main-none-eabihf",
+            Self::Riscv => "riscv32imafc-unknown-none-elf",
+            Self::RiscvImc => "riscv32imc-unknown-none-elf",
+            Self::M0 => "thumbv6m-none-eabi",
         }
     }
 
@@ -124,10 +154,13 @@ pub enum AnyBoard {
 }
 
 impl AnyBoard {
-    const ALL: [Self; 6] = [
+    const ALL: [Self; 9] = [
         Self::Emulated(Board::M4),
         Self::Emulated(Board::M7),
         Self::Emulated(Board::M33),
+        Self::Emulated(Board::Riscv),
+        Self::Emulated(Board::RiscvImc),
+        Self::Emulated(Board::M0),
         Self::Bench(BenchBoard::Stm32g4),
         Self::Bench(BenchBoard::Pico2),
         Self::Bench(BenchBoard::Teensy41),

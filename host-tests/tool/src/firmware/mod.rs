@@ -50,9 +50,19 @@ pub const WITH_FIRMWARE: &str = "PALPATE_FIRMWARE";
 /// The variable that makes tests of one core run on every core: `.ci/long` sets it.
 pub const EVERY_CORE: &str = "PALPATE_EVERY_CORE";
 
-/// The cores that every image is built for: the first, or all in a long run.
+/// Whether this is a long run.
+pub fn is_long() -> bool {
+    std::env::var_os(EVERY_CORE).is_some()
+}
+
+/// The cores that every image is built for: the first, or every Cortex-M with floats in a long run.
 pub fn cores() -> &'static [Board] {
-    if std::env::var_os(EVERY_CORE).is_some() { &Board::ALL } else { &Board::ALL[..1] }
+    if is_long() { &Board::CORTEX_F } else { &Board::CORTEX_F[..1] }
+}
+
+/// The cores whose bits are compared with the host's: a long run has those without floats, which take minutes.
+pub fn compared() -> Vec<Board> {
+    Board::ALL.into_iter().filter(|board| is_long() || board.has_floats()).collect()
 }
 
 /// All that is needed to run the firmware: an emulator and the images.
@@ -80,7 +90,7 @@ impl Firmware {
 /// [`SetUpError::NoEmulator`] if there is no emulator and none can be had: run the host loop then. Otherwise what went
 /// wrong.
 pub fn prepare(choice: &Choice, progress: &Progress) -> Result<Firmware, SetUpError> {
-    let qemu = Qemu::set_up(progress)?;
+    let qemu = Qemu::set_up(choice.board, progress)?;
     let toolchain = Toolchain::set_up(choice.board.target(), progress)?;
     let images = image::build(&toolchain, choice, progress)?;
     Ok(Firmware { qemu, images })

@@ -38,7 +38,7 @@ impl Program {
         features: &[&str],
         progress: &Progress,
     ) -> Result<Self, SetUpError> {
-        let qemu = Qemu::set_up(progress)?;
+        let qemu = Qemu::set_up(choice.board, progress)?;
         let toolchain = Toolchain::set_up(choice.board.target(), progress)?;
         let folder = tempfile::Builder::new().prefix("palpate-image-").tempdir().map_err(SetUpError::io("a folder"))?;
         let image = image::build_program(&toolchain, choice, program, features, folder.path(), progress)?;
@@ -53,7 +53,7 @@ impl Program {
         let folder = tempfile::Builder::new().prefix("palpate-image-").tempdir().map_err(SetUpError::io("a folder"))?;
         // The emulator runs in a folder of its own.
         let elf = elf.canonicalize().map_err(SetUpError::io(elf.display()))?;
-        Ok(Self { qemu: Qemu::set_up(progress)?, image: image::measure(board, elf)?, folder })
+        Ok(Self { qemu: Qemu::set_up(board, progress)?, image: image::measure(board, elf)?, folder })
     }
 
     /// The folder that it runs in.

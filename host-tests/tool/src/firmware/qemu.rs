@@ -6,7 +6,13 @@ use std::env;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-const PROGRAM: &str = "qemu-system-arm";
+/// The program for a board, and the Debian package that it comes in.
+const fn program(board: Board) -> [&'static str; 2] {
+    match board {
+        Board::Riscv | Board::RiscvImc => ["qemu-system-riscv32", "qemu-system-misc"],
+        _ => ["qemu-system-arm"; 2],
+    }
+}
 
 /// Pace of the emulated clock.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,17 +50,17 @@ impl Qemu {
     ///
     /// # Errors
     /// [`SetUpError::NoEmulator`], with the reason.
-    pub fn set_up(progress: &Progress) -> Result<Self, SetUpError> {
+    pub fn set_up(board: Board, progress: &Progress) -> Result<Self, SetUpError> {
         // Before anything is installed in vain.
         crate::repository::root()?;
-        if let Some(program) = env::var_os("PALPATE_QEMU").filter(|program| !program.is_empty()) {
-            return Self::at(PathBuf::from(program));
-        }
-        if let Some(program) = on_path(PROGRAM) {
+        let [name, package] = program(board);
+        // The variable names the emulator of Arm cores.
+        let named = env::var_os("PALPATE_QEMU").filter(|program| !program.is_empty() && name == package);
+        if let Some(program) = named.map(PathBuf::from).or_else(|| on_path(name)) {
             return Self::at(program);
         }
-        apt_install(&[PROGRAM], progress).map_err(SetUpError::NoEmulator)?;
-        Self::at(on_path(PROGRAM).ok_or_else(|| SetUpError::NoEmulator(format!("{PROGRAM} did not come along")))?)
+        apt_install(&[package], progress).map_err(SetUpError::NoEmulator)?;
+        Self::at(on_path(name).ok_or_else(|| SetUpError::NoEmulator(format!("{name} did not come with {package}")))?)
     }
 
     fn at(program: PathBuf) -> Result<Self, SetUpError> {
@@ -68,6 +74,10 @@ impl Qemu {
     pub fn board(&self, elf: &Path, board: Board, pace: Pace) -> Command {
         let mut command = Command::new(&self.program);
         command.stdin(Stdio::null()).args(["-machine", board.machine()]);
+        if board.machine() == "virt" {
+            // Its firmware is the image alone.
+            command.args(["-bios", "none"]);
+        }
         if let Some(count) = pace.instruction_count() {
             command.args(["-icount", count]);
         }

@@ -1,6 +1,6 @@
 //! `docs/reference/measured.md`: each row is held by a test or a budget, and names a command that is there.
 
-use crate::pages::{cells, sources, text};
+use crate::pages::{cells, compare, palpate, sources, text};
 use palpate::body::BodyWitness;
 use palpate::device::VelocityMethod;
 use palpate::servo::{Guard, Guarded, ServoState};
@@ -73,6 +73,16 @@ fn counted_instructions_are_those_of_the_committed_budgets() {
         let count = budget.of(name).unwrap_or_else(|| panic!("no budget of {name:?}"));
         measured::measured(&claim, grouped(count.into()));
     }
+}
+
+#[test]
+fn the_table_of_cores_is_that_of_the_committed_budgets() {
+    const PAGE: &str = "docs/howto/board.md";
+    const MARK: &str = "<!-- generated: cargo palpate budgets --cores -->\n\n";
+    let now = text(PAGE);
+    let (before, rest) = now.split_once(MARK).expect("a generated block");
+    let (_, after) = rest.split_once("<!-- end -->").expect("its end");
+    compare(PAGE, &format!("{before}{MARK}{}\n<!-- end -->{after}", palpate(&["budgets", "--cores"])));
 }
 
 /// One device at one rate: all of them take minutes.

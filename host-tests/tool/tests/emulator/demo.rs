@@ -7,7 +7,7 @@ use palpate::servo::Fault;
 use palpate_tool::commands::demo::program;
 use palpate_tool::commands::options::{RATES, Scene, SceneOptions};
 use palpate_tool::commands::rate::in_time;
-use palpate_tool::firmware::{Board, Link, Progress, Transport};
+use palpate_tool::firmware::{Board, Link, Progress, Transport, is_long};
 use palpate_tool::report::Summary;
 use palpate_tool::simulation::{Trace, run};
 
@@ -134,6 +134,16 @@ fn host_and_firmware_agree_in_every_bit_of_every_tick_of_the_demo() {
     let [device, host] = traces(&["demo"]);
     let [device, host] = [device, host].map(|trace| Summary::new(&trace));
     assert_eq!(device.state_hash, host.state_hash);
+    // The same on cores of other kinds; those without floats do not reach the demo's rate.
+    for board in Board::ALL.into_iter().filter(|_| is_long()) {
+        let arguments: &[&str] = if board.has_floats() { &["demo"] } else { &["demo", "--rate", "1000"] };
+        let [other, here] = traces_on(board, arguments).map(|trace| Summary::new(&trace));
+        assert!(
+            other.state_hash == here.state_hash && other.fault.is_none() && other.touches > 3,
+            "{board:?}: {other}"
+        );
+        assert!(!board.has_floats() || other.state_hash == device.state_hash);
+    }
     // A demo that touches nothing would agree too.
     assert!(host.ticks == 20_000 && host.touches > 3 && host.mode_changes > 3 && host.contact_time > 1.0, "{host}");
     // What else the README shows of the demo is held to the host's run of it (`docs/readme.rs`): it is the same.

@@ -14,7 +14,7 @@ const RAM: u64 = 4 * 1024;
 
 #[test]
 fn the_image_is_within_its_budget() {
-    for board in Board::ALL {
+    for board in Board::CORTEX_F {
         let Some(firmware) = firmware_of(board, "the_image_is_within_its_budget") else { return };
         for (transport, most) in [(Transport::Uart, FLASH), (Transport::Fifo, WITH_FILES)] {
             let image = firmware.images.of(transport);

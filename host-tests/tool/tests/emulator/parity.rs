@@ -1,10 +1,13 @@
 //! A million ticks that visit everything a servo can do, on every core and on the host: the same bits.
 
 use crate::running::is_wanted;
+use object::{Object, ObjectSection};
 use palpate::servo::{Fault, Phase};
 use palpate_bench::exercise::tally::Tally;
-use palpate_tool::firmware::{Board, Pace, Program, Progress};
+use palpate_tool::firmware::{self, Board, Pace, Program, Progress};
+use std::fs;
 use std::io::{Write, stderr};
+use std::path::Path;
 use std::thread;
 use std::time::Instant;
 
@@ -23,7 +26,8 @@ fn every_core_and_the_host_agree_in_every_bit_of_a_million_ticks() {
     if !is_wanted("every_core_and_the_host_agree_in_every_bit_of_a_million_ticks") {
         return;
     }
-    let programs = Board::ALL.map(|board| Program::prepare(board, "parity", &[], &Progress::new()).unwrap());
+    let prepare = |board: &Board| Program::prepare(*board, "parity", &[], &Progress::new()).unwrap();
+    let programs: Vec<Program> = firmware::compared().iter().map(prepare).collect();
     let (mut host, _) = on_host();
     let mut soft = Tally::default();
     palpate_bench::exercise::run_soft(&mut |name, tally| {
@@ -44,6 +48,32 @@ fn every_core_and_the_host_agree_in_every_bit_of_a_million_ticks() {
             });
         }
     });
+}
+
+/// The fused multiply-adds of RISC-V code, by their addresses: they round once where the host rounds twice.
+fn fused(elf: &Path) -> Vec<u64> {
+    let content = fs::read(elf).expect("the image");
+    let file = object::File::parse(content.as_slice()).expect("an ELF file");
+    let section = file.section_by_name(".text").expect("code");
+    let (code, mut at, mut found) = (section.data().expect("its bytes"), 0, Vec::new());
+    while let Some(&[low, _]) = code.get(at..at + 2) {
+        // FMADD, FMSUB, FNMSUB, FNMADD: `10xx11` in the seven bits of the operation.
+        if low & 0b111_0011 == 0b100_0011 {
+            found.push(section.address() + at as u64);
+        }
+        // Two bits set: four bytes; else a compressed instruction.
+        at += if low & 0b11 == 0b11 { 4 } else { 2 };
+    }
+    found
+}
+
+#[test]
+fn no_image_for_risc_v_fuses_a_multiplication_with_an_addition() {
+    if !is_wanted("no_image_for_risc_v_fuses_a_multiplication_with_an_addition") {
+        return;
+    }
+    let program = Program::prepare(Board::Riscv, "parity", &[], &Progress::new()).unwrap();
+    assert_eq!(fused(&program.image.elf), Vec::<u64>::new());
 }
 
 #[test]
