@@ -20,3 +20,6 @@ pub const SETTINGS: palpate::servo::Settings = palpate::servo::Settings {
 /// A host that is silent for 100 ms is gone.
 pub const SAFETY: palpate::servo::Safety =
     palpate::servo::Safety { link_timeout_s: 0.1, ..palpate::servo::Safety::DEFAULT };
+
+/// Spring and damper alone, as the budgets count them; `demo` has the recommended smoothing.
+pub const RENDERING: palpate::servo::Rendering = palpate::servo::Rendering::PLAIN;

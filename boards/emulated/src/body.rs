@@ -49,7 +49,7 @@ pub const EFFORT: Effort = Effort::ONE;
 static SURFACE: tables::Surface = tables::with_effort(EFFORT);
 
 /// How the surface feels.
-const RENDERING: Rendering = if cfg!(feature = "smooth") { Rendering::SMOOTH } else { Rendering::PLAIN };
+const RENDERING: Rendering = if cfg!(feature = "smooth") { Rendering::SMOOTH } else { settings::RENDERING };
 
 /// Everything the servo knows, in flash.
 #[cfg(not(feature = "protected"))]

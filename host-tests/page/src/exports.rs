@@ -311,11 +311,11 @@ pub extern "C" fn replay_body(length: usize) -> i32 {
 /// Starts a recorded run on the loaded body, from `count` numbers in the input, of which `of_device` are the device's
 /// (see [`Run::of`]): 0, or −1 with a message.
 #[unsafe(no_mangle)]
-pub extern "C" fn replay_begin(count: usize, of_device: usize, link_timeout: f32) -> i32 {
+pub extern "C" fn replay_begin(count: usize, of_device: usize, link_timeout: f32, rendering: u32) -> i32 {
     let mut state = STATE.lock();
     let words = mem::take(&mut state.input);
     let numbers: Vec<f32> = words.iter().take(count).map(|word| f32::from_bits(*word)).collect();
-    let (Some(stage), Some(run)) = (&state.stage, Run::of(&numbers, of_device, link_timeout)) else {
+    let (Some(stage), Some(run)) = (&state.stage, Run::of(&numbers, of_device, link_timeout, rendering)) else {
         return state.say("there is no body, or the run's numbers are no device's");
     };
     match replay::replay(&run, &stage.loaded, &state.others) {

@@ -10,7 +10,7 @@ use palpate::body::Body;
 use palpate::device::{Counts, Device};
 use palpate::math::Vec3;
 use palpate::scene::Scene;
-use palpate::servo::{Config, Event, Guard, Input, Safety, Servo, ServoState, Settings};
+use palpate::servo::{Config, Event, Guard, Input, Rendering, Safety, Servo, ServoState, Settings};
 use palpate::track::Controller;
 use palpate::wire::frame::{DELIMITER, Received, Receiver};
 use palpate::wire::{DeviceMessage, Record};
@@ -23,6 +23,8 @@ pub struct Run {
     pub on: Recorded,
     /// The loop's settings.
     pub settings: Settings,
+    /// How the surface felt.
+    pub rendering: Rendering,
     /// Seconds without a host after which it stops.
     pub link_timeout: f32,
     /// The rendered scene; `None` for a single body or patch.
@@ -34,8 +36,9 @@ const SETTINGS: usize = 9;
 
 impl Run {
     /// From the numbers of a recording: rate, stiffness, damping, maximum force, velocity corner, soft start and the
-    /// body's origin; then the `of_device` numbers of the device; then those of the scene, if it was one.
-    pub fn of(numbers: &[f32], of_device: usize, link_timeout: f32) -> Option<Self> {
+    /// body's origin; then the `of_device` numbers of the device; then those of the scene, if it was one. The rendering is
+    /// 0 for plain, 1 for eased, 2 for smooth.
+    pub fn of(numbers: &[f32], of_device: usize, link_timeout: f32, rendering: u32) -> Option<Self> {
         let (settings, numbers) = numbers.split_at_checked(SETTINGS)?;
         let (device, scene) = numbers.split_at_checked(of_device)?;
         let &[rate, stiffness, damping, max_force, velocity_corner, soft_start, x, y, z] = settings else {
@@ -54,6 +57,7 @@ impl Run {
                 soft_start_s: soft_start,
                 body_origin_m: body_origin,
             },
+            rendering: *[Rendering::PLAIN, Rendering::EASED, Rendering::SMOOTH].get(rendering as usize)?,
             link_timeout,
             scene,
         })
@@ -134,7 +138,7 @@ where
 {
     let device: &'static Device<Mechanism, 3> = Box::leak(Box::new(run.on.device));
     let safety = Safety { link_timeout_s: run.link_timeout, ..Safety::DEFAULT };
-    let config = Config { settings: run.settings, safety, ..Config::DEFAULT };
+    let config = Config { settings: run.settings, rendering: run.rendering, safety, ..Config::DEFAULT };
     if let Some(protection) = run.on.protection {
         let servo = Servo::try_protected(device, surface, protection, config).map_err(|error| error.to_string())?;
         return started(surface, servo);

@@ -146,7 +146,7 @@ export class Device {
   }
 
   /** A run on the device of these numbers, over a scene's if there are any; numbers are bytes of f32. */
-  beginReplay({ settings, device, scene, linkTimeout }) {
+  beginReplay({ settings, rendering, device, scene, linkTimeout }) {
     const parts = [new Uint8Array(Float32Array.from(settings).buffer), device, scene];
     const numbers = new Uint8Array(parts.reduce((length, part) => length + part.length, 0));
     let at = 0;
@@ -155,7 +155,7 @@ export class Device {
       at += part.length;
     }
     this.#put(numbers);
-    const begun = this.exports.replay_begin(numbers.length / 4, device.length / 4, linkTimeout);
+    const begun = this.exports.replay_begin(numbers.length / 4, device.length / 4, linkTimeout, rendering);
     if (begun < 0) throw new Error(this.#text());
   }
 

@@ -6,16 +6,21 @@ import { read } from "bodies";
 /** How many ticks pass between two views that are kept. */
 const STRIDE = 8;
 
+/** The renderings of the firmware's code, by number. */
+const RENDERINGS = ["plain", "eased", "smooth"];
+
 /** A recording as the tool writes it: its body, the views of its run, and whether the hash is what was recorded. */
 export async function open(text, name) {
   const said = JSON.parse(text);
   if (said.palpate !== "recording") throw new Error(`${name}: not a recording of palpate`);
-  if (!said.bodies?.length || !said.device_numbers) throw new Error(`${name}: recorded by another version of palpate`);
+  const rendering = RENDERINGS.indexOf(said.rendering ?? "plain");
+  if (!said.bodies?.length || !said.device_numbers || rendering < 0) throw new Error(`${name}: recorded by another version of palpate`);
   const bodies = await Promise.all(said.bodies.map(({ name, file }) => read(decode(file), name)));
   const [body] = bodies;
   for (const { bytes } of bodies.slice(1)) body.device.addToReplay(bytes);
   body.device.beginReplay({
     settings: said.settings,
+    rendering,
     device: decode(said.device_numbers),
     scene: said.scene ? decode(said.scene.numbers) : new Uint8Array(),
     linkTimeout: said.link_timeout,

@@ -52,7 +52,8 @@ pub fn settings_source(own: &OwnDevice, rate: f32) -> String {
         "{}\n/// The loop's settings.\npub const SETTINGS: palpate::servo::Settings = palpate::servo::Settings {{\n    \
          rate_hz: {rate:?},\n    stiffness_n_per_m: {stiffness:?},\n    damping_n_s_per_m: {damping:?},\n    max_force_n: {force:?},\n    \
          velocity_corner_hz: 200.0,\n    soft_start_s: 0.2,\n    body_origin_m: palpate::math::vec3(-0.03, -0.02, \
-         -0.015),\n}};\n/// Its limits.\npub const SAFETY: palpate::servo::Safety = palpate::servo::Safety::DEFAULT;\n",
+         -0.015),\n}};\n/// Its limits.\npub const SAFETY: palpate::servo::Safety = palpate::servo::Safety::DEFAULT;\n\
+         /// How the surface feels.\npub const RENDERING: palpate::servo::Rendering = palpate::servo::Rendering::SMOOTH;\n",
         source(own, &own.file.name),
     )
 }

@@ -2,6 +2,7 @@
 
 use super::feel_clean;
 use super::felt::Felt;
+use super::smoothing::Smoothing;
 use crate::devices::{self, Arms, ShippedDevice};
 use crate::feel::table::Worst;
 use crate::feel::{Crossed, ENCODERS, RATES, Row, Wish, plot, rows, table};
@@ -9,8 +10,7 @@ use crate::models::ModelFile;
 use crate::plot::at_widths;
 use crate::report::{Report, Section};
 use anyhow::{Context, bail, ensure};
-use clap::{Args, ValueEnum};
-use palpate::servo::Rendering;
+use clap::Args;
 use palpate::servo::recommended::Recommended;
 use palpate_sim::feel::{BANDS, Threshold, recorded};
 use palpate_sim::zwidth::Slice;
@@ -44,7 +44,7 @@ pub struct Arguments {
     /// Smoothing: smooth (hides counts, ticks and edges), eased (all but counts), plain (none); default: recommended
     /// for the device
     #[arg(long, value_enum)]
-    rendering: Option<Kind>,
+    rendering: Option<Smoothing>,
     /// Search for the stiffest wall that is clean to slide along, at 1, 2, 4, 8 and 10 kHz, with the device's encoders
     /// and finer ones
     #[arg(long, conflicts_with_all = ["model", "rate", "stiffness", "recording", "velocity_corner"])]
@@ -61,24 +61,6 @@ pub struct Arguments {
     /// Folder for figures (CSV) and report (HTML)
     #[arg(long, default_value = "palpate-report/feel")]
     out: PathBuf,
-}
-
-/// `Rendering`'s constants by name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Kind {
-    Smooth,
-    Eased,
-    Plain,
-}
-
-impl Kind {
-    fn rendering(self) -> Rendering {
-        match self {
-            Self::Smooth => Rendering::SMOOTH,
-            Self::Eased => Rendering::EASED,
-            Self::Plain => Rendering::PLAIN,
-        }
-    }
 }
 
 /// Runs the command.
@@ -145,7 +127,7 @@ fn wish(arguments: &Arguments, device: &ShippedDevice) -> Wish {
         stiffness: arguments.stiffness.unwrap_or(settings.stiffness_n_per_m),
         damping: arguments.damping.unwrap_or(settings.damping_n_s_per_m),
         corner: arguments.velocity_corner.unwrap_or(settings.velocity_corner_hz),
-        rendering: arguments.rendering.map_or(rendering, Kind::rendering),
+        rendering: arguments.rendering.map_or(rendering, Smoothing::rendering),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::felt::Felt;
 use super::felt_scene::FeltScene;
+use super::smoothing::Smoothing;
 use crate::devices::{self, Chosen, Preset, ShippedDevice};
 use crate::firmware::Link;
 use crate::models::ModelFile;
@@ -19,11 +20,6 @@ use palpate_sim::plant::{HandSettings, PathError, Plant, TouchingPath};
 use palpate_sim::recorded::Recorded;
 use palpate_sim::scene::SceneFile;
 use std::path::PathBuf;
-
-/// Stiffness, N/m, and damping, N·s/m, of a surface unless asked for otherwise: every preset holds it without a limit
-/// cycle.
-const STIFFNESS: f32 = 1_000.0;
-const DAMPING: f32 = 2.0;
 
 /// Servo rates, Hz: the one that a run has unless asked for another, and those it goes down to where a tick takes
 /// longer.
@@ -56,18 +52,21 @@ pub struct SceneOptions {
     /// Seed of the hand's path
     #[arg(long, default_value_t = 2)]
     pub seed: u64,
-    /// Stiffness of the surface, N/m; default 1,000, or the device's maximum if lower
+    /// Stiffness of the surface, N/m; default: recommended for the device
     #[arg(long)]
     pub stiffness: Option<f32>,
-    /// Damping of the surface, N·s/m; default 2, or the device's maximum if lower
+    /// Damping of the surface, N·s/m; default: recommended for the device
     #[arg(long)]
     pub damping: Option<f32>,
-    /// Maximum force, N; the device's own limit applies too
-    #[arg(long, alias = "greatest-force", default_value_t = 5.0)]
-    pub max_force: f32,
-    /// Corner frequency of the velocity filter, Hz
-    #[arg(long, default_value_t = 150.0)]
-    pub velocity_corner: f32,
+    /// Maximum force, N; default: recommended for the device, whose own limit applies too
+    #[arg(long, alias = "greatest-force")]
+    pub max_force: Option<f32>,
+    /// Corner frequency of the velocity filter, Hz; default: recommended for the device
+    #[arg(long)]
+    pub velocity_corner: Option<f32>,
+    /// Smoothing: smooth (hides counts, ticks and edges), eased (all but counts), plain (none)
+    #[arg(long, value_enum, default_value_t = Smoothing::Smooth)]
+    pub rendering: Smoothing,
     /// Soft start: time over which the force fades in, s
     #[arg(long, default_value_t = 0.1)]
     pub soft_start: f32,
@@ -75,8 +74,18 @@ pub struct SceneOptions {
     #[arg(long)]
     pub protected: bool,
     /// Origin of the model in the workspace: x,y,z in mm from its centre; default: the model is centred
-    #[arg(long, value_delimiter = ',', num_args = 3, allow_hyphen_values = true)]
-    pub at: Option<Vec<f64>>,
+    #[arg(long, value_name = "X,Y,Z", value_parser = millimetres, allow_hyphen_values = true)]
+    pub at: Option<DVec3>,
+}
+
+/// A point from `x,y,z` in mm, as metres.
+pub(super) fn millimetres(text: &str) -> Result<DVec3, String> {
+    let numbers: Option<Vec<f64>> = text.split(',').map(|number| number.trim().parse().ok()).collect();
+    numbers
+        .and_then(|numbers| <[f64; 3]>::try_from(numbers).ok())
+        .map(|numbers| DVec3::from_array(numbers) * 1e-3)
+        .filter(|point| point.is_finite())
+        .ok_or_else(|| "not three numbers: x,y,z in mm".to_owned())
 }
 
 /// A scene that is ready to run.
@@ -91,6 +100,8 @@ pub struct Scene {
     pub device: &'static ShippedDevice,
     /// The loop's settings.
     pub settings: Settings,
+    /// How the surface feels.
+    pub rendering: Smoothing,
     /// The device's protection, if it was requested.
     pub protection: Option<Protection<3>>,
     /// Ticks to run.
@@ -121,10 +132,7 @@ impl SceneOptions {
             let model = file.model()?;
             (Felt::read(&model, &file, &self.model, self.patch.as_deref(), self.modes.as_deref())?, model.centre)
         };
-        let body_origin = match self.at.as_deref() {
-            Some(&[x, y, z]) => (DVec3::new(x, y, z) * 1e-3 + centre).as_vec3(),
-            _ => -felt.middle(),
-        };
+        let body_origin = self.at.map_or_else(|| -felt.middle(), |at| (at + centre).as_vec3());
         let Chosen::Arm(device) = self.device else {
             bail!("the knob touches no surface: cargo palpate demo --device knob")
         };
@@ -132,12 +140,13 @@ impl SceneOptions {
             bail!("{} has too few joints to feel a surface in space; see zwidth", device.name);
         }
         let limits = device.preset.limits();
+        let recommended = device.recommended().settings;
         let settings = Settings {
             rate_hz: self.rate.unwrap_or(RATES[0]),
-            stiffness_n_per_m: self.stiffness.unwrap_or(STIFFNESS.min(limits.stiffness)),
-            damping_n_s_per_m: self.damping.unwrap_or(DAMPING.min(limits.damping)),
-            max_force_n: self.max_force,
-            velocity_corner_hz: self.velocity_corner,
+            stiffness_n_per_m: self.stiffness.unwrap_or(recommended.stiffness_n_per_m),
+            damping_n_s_per_m: self.damping.unwrap_or(recommended.damping_n_s_per_m),
+            max_force_n: self.max_force.unwrap_or(recommended.max_force_n),
+            velocity_corner_hz: self.velocity_corner.unwrap_or(recommended.velocity_corner_hz),
             soft_start_s: self.soft_start,
             body_origin_m: body_origin,
         };
@@ -146,7 +155,7 @@ impl SceneOptions {
             .with_context(|| format!("{}: up to {} N/m and {} N·s/m", device.name, limits.stiffness, limits.damping))?;
         let [ticks, enable_at] = self.ticks(settings.rate_hz)?;
         let protection = self.protected.then(|| device.protection());
-        Ok(Scene { file, centre, felt, device, settings, protection, ticks, enable_at })
+        Ok(Scene { file, centre, felt, device, settings, rendering: self.rendering, protection, ticks, enable_at })
     }
 
     /// How many ticks to run at a rate, Hz, and at which of them force is asked for.
@@ -187,7 +196,7 @@ impl SceneOptions {
             if error == PathError::NoRoom {
                 anyhow!("{}: {error} (move it with --at)", scene.device.name)
             } else {
-                anyhow::Error::new(error).context("the hand finds no path over the surface; move the model with --at over the surface; move the model with --at")
+                anyhow::Error::new(error).context("the hand finds no path over the surface; move the model with --at")
             }
         })?;
         Plant::new(&scene.device.plant, HandSettings::default(), Box::new(path), f64::from(scene.settings.rate_hz))
@@ -246,7 +255,8 @@ impl Scene {
         device: &'static Device<K, 3>,
         surface: &'static S,
     ) -> anyhow::Result<Box<dyn Link>> {
-        let config = Config { settings: self.settings, safety: SAFETY, ..Config::DEFAULT };
+        let rendering = self.rendering.rendering();
+        let config = Config { settings: self.settings, rendering, safety: SAFETY, ..Config::DEFAULT };
         Ok(match self.protection {
             None => Box::new(HostLoop::new(Servo::try_new(device, surface, config)?)),
             Some(protection) => Box::new(HostLoop::new(Servo::try_protected(device, surface, protection, config)?)),
@@ -272,6 +282,7 @@ impl Scene {
             device: self.device.name,
             numbers: &self.recorded_device()?,
             settings: &self.settings,
+            rendering: self.rendering.name(),
             link_timeout: SAFETY.link_timeout_s,
             enable_at: self.enable_at,
         };
@@ -375,7 +386,9 @@ impl Scene {
              rate_hz: {rate:?},\n    stiffness_n_per_m: {stiffness:?},\n    damping_n_s_per_m: {damping:?},\n    \
              max_force_n: {max_force:?},\n    velocity_corner_hz: {velocity_corner:?},\n    \
              soft_start_s: {soft_start:?},\n    body_origin_m: palpate::math::vec3({x:?}, {y:?}, {z:?}),\n}};\n/// Its limits.\n\
-             pub const SAFETY: palpate::servo::Safety =\n    palpate::servo::Safety {{ link_timeout_s: {link_timeout:?}, ..palpate::servo::Safety::DEFAULT }};\n"
+             pub const SAFETY: palpate::servo::Safety =\n    palpate::servo::Safety {{ link_timeout_s: {link_timeout:?}, ..palpate::servo::Safety::DEFAULT }};\n\
+             /// How the surface feels.\npub const RENDERING: palpate::servo::Rendering = {};\n",
+            self.rendering.source()
         )
     }
 }

@@ -29,6 +29,9 @@ pub struct Recording {
     pub device_numbers: String,
     /// Rate, stiffness, damping, maximum force, velocity corner, soft start, and the body's origin: SI units.
     pub settings: [f32; 9],
+    /// The rendering's name: smooth, eased or plain.
+    #[serde(default = "plain")]
+    pub rendering: String,
     /// Seconds without a host after which the loop stops.
     pub link_timeout: f32,
     /// Ticks.
@@ -57,6 +60,11 @@ pub struct RecordedScene {
     pub parts: Vec<(String, u32)>,
     /// Its numbers, in the format of `palpate_sim::recorded`, in base64.
     pub numbers: String,
+}
+
+/// Recordings without an entry are of a time when all runs were plain.
+fn plain() -> String {
+    "plain".to_owned()
 }
 
 impl RecordedBody {
@@ -103,6 +111,8 @@ pub struct Loop<'a> {
     pub numbers: &'a Recorded,
     /// Its settings.
     pub settings: &'a Settings,
+    /// The rendering's name.
+    pub rendering: &'a str,
     /// Seconds without a host after which it stops.
     pub link_timeout: f32,
     /// The tick from which force was asked for.
@@ -131,6 +141,7 @@ impl Recording {
             device: of.device.to_owned(),
             device_numbers: in_base64(&of.numbers.numbers()),
             settings: [rate, stiffness, damping, max_force, velocity_corner, soft_start, x, y, z],
+            rendering: of.rendering.to_owned(),
             link_timeout: of.link_timeout,
             ticks: trace.samples.len(),
             enable_at: of.enable_at,
