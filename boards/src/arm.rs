@@ -3,7 +3,7 @@
 
 use palpate::device::{Device, Homing, Kinematics, Protection, Reference};
 use palpate::scene::{BodyStore, Limits, Material, Motion, Part, Scene, Slot};
-use palpate::servo::{Config, Guarded, Safety, Servo, Settings, Surface};
+use palpate::servo::{Config, Guarded, Rendering, Safety, Servo, Settings, Surface};
 use palpate::track::Placement;
 
 /// The servo of an arm on a surface.
@@ -19,7 +19,8 @@ const fn homing<K>(device: &Device<K, 3>, reference: Reference<3>, rate: f32) ->
 }
 
 /// The servo of a device with its protection, homed by this reference; `None` for counts that are known after each
-/// reset. The table is checked at boot and continuously.
+/// reset. The table is checked at boot and continuously. The force is smooth:
+/// free of counts, ticks and edges.
 pub const fn arm_servo<S: Surface, K: Kinematics<3>>(
     device: &'static Device<K, 3>,
     surface: &'static S,
@@ -32,7 +33,8 @@ pub const fn arm_servo<S: Surface, K: Kinematics<3>>(
         Some(reference) => Some(homing(device, reference, settings.rate_hz)),
         None => None,
     };
-    Servo::protected(device, surface, protection, Config { settings, homing, safety, ..Config::DEFAULT })
+    let rendering = Rendering::SMOOTH;
+    Servo::protected(device, surface, protection, Config { settings, rendering, homing, safety, ..Config::DEFAULT })
 }
 
 /// The scene of a slot: its body rests, with the loop's own stiffness and damping.

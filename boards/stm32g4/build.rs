@@ -8,5 +8,6 @@ fn main() {
         "MEMORY { FLASH : ORIGIN = 0x08000000, LENGTH = 512K  RAM : ORIGIN = 0x20000000, LENGTH = 96K }\n",
     );
     palpate_board_build::body_and_device(palpate_board_build::own_body());
+    palpate_board_build::origin();
     palpate_board_build::rate(20_000);
 }

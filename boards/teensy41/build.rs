@@ -30,6 +30,7 @@ fn main() {
         .build()
         .expect("the linker script can be written");
     palpate_board_build::body_and_device(palpate_board_build::own_body());
+    palpate_board_build::origin();
     palpate_board_build::rate(40_000);
     println!("cargo::rerun-if-changed=build.rs");
 }

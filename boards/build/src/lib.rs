@@ -12,6 +12,9 @@ const DEVICE: &str = "PALPATE_DEVICE";
 /// The servo rate, Hz. `cargo palpate firmware --board B --rate HZ …` sets it.
 const RATE: &str = "PALPATE_RATE";
 
+/// The origin of the body in the workspace, metres. `cargo palpate firmware --board B --body MODEL --at X,Y,Z …` sets it.
+const ORIGIN: &str = "PALPATE_ORIGIN";
+
 /// Lays a memory map where the linker finds it as `memory.x`.
 ///
 /// # Panics
@@ -110,6 +113,24 @@ pub fn rate(highest_hz: u32) {
     let rate: u32 = rate.unwrap_or_else(|| panic!("{RATE}={asked}: this board takes 3000 to {highest_hz} Hz"));
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
     fs::write(out.join("rate.rs"), rate.to_string()).expect("OUT_DIR can be written");
+}
+
+/// Writes the body's origin, metres, that `PALPATE_ORIGIN` names as `origin.rs` for `include!`; by default a body of
+/// 100 mm square lies level, 60 mm below the centre of the workspace.
+///
+/// # Panics
+/// If it is not three finite numbers.
+pub fn origin() {
+    println!("cargo::rerun-if-env-changed={ORIGIN}");
+    let asked = env::var(ORIGIN).unwrap_or_else(|_| "-0.05,-0.05,-0.06".to_owned());
+    let metres: Option<Vec<f32>> = asked.split(',').map(|metres| metres.trim().parse().ok()).collect();
+    let [x, y, z] = metres
+        .and_then(|metres| <[f32; 3]>::try_from(metres).ok())
+        .filter(|metres| metres.iter().all(|metres| metres.is_finite()))
+        .unwrap_or_else(|| panic!("{ORIGIN}={asked}: not three finite numbers, metres"));
+    let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
+    fs::write(out.join("origin.rs"), format!("palpate::math::vec3({x:?}, {y:?}, {z:?})"))
+        .expect("OUT_DIR can be written");
 }
 
 fn choose(variable: &str, default: &str) {

@@ -2,8 +2,7 @@
 //! and rate (`--rate`).
 
 use palpate::body::Effort;
-use palpate::math::vec3;
-use palpate::servo::{Safety, Settings};
+use palpate::servo::{Safety, Settings, recommended};
 
 /// The device: this board's own, or that of `--device`.
 pub mod own {
@@ -16,15 +15,11 @@ pub const RATE_HZ: u32 = include!(concat!(env!("OUT_DIR"), "/rate.rs"));
 const _: () =
     assert!(RATE_HZ <= 4_000, "bodies from a host are bounded for 4 kHz: a faster loop has no feature `host`");
 
-/// 600 N/m are well inside what the device takes.
+/// Recommended for the device; the body lies where `--at` has it.
 pub const SETTINGS: Settings = Settings {
     rate_hz: RATE_HZ as f32,
-    stiffness_n_per_m: 600.0,
-    damping_n_s_per_m: 2.0,
-    max_force_n: 5.0,
-    velocity_corner_hz: 200.0,
-    soft_start_s: 0.2,
-    body_origin_m: vec3(-0.05, -0.05, -0.06),
+    body_origin_m: include!(concat!(env!("OUT_DIR"), "/origin.rs")),
+    ..recommended::of(&own::DEVICE).settings
 };
 
 /// A host that has commanded something and falls silent for a tenth of a second is gone.

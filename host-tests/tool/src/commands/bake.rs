@@ -1,6 +1,7 @@
 //! `palpate bake`: writes a model's tables as Rust source, or as a file.
 
 use super::check::{self, Loaded};
+use super::felt;
 use super::output::{print, write_whole};
 use super::progress;
 use super::soft;
@@ -9,7 +10,9 @@ use crate::cache::Evidence;
 use crate::models::is_baked;
 use anyhow::{Context as _, ensure};
 use clap::Args;
+use glam::DVec3;
 use palpate::body::{Body, TickLimit, TickWork};
+use palpate::math::Vec3;
 use palpate_bake::body::BodyBytes;
 use palpate_bake::file::FileFault;
 use palpate_bake::graph;
@@ -195,6 +198,10 @@ pub(super) struct Baked {
     pub source: String,
     /// Bytes of the tables on a 32-bit target.
     pub bytes: u64,
+    /// The middle of the surface in the tables' frame, metres.
+    pub middle: Vec3,
+    /// Where the tables' frame lies in the model's, metres.
+    pub centre: DVec3,
 }
 
 /// Bakes a model as [`run`] does with its defaults.
@@ -213,7 +220,9 @@ pub(super) fn baked(path: &Path, out_file: &str) -> anyhow::Result<Baked> {
     let origin =
         Origin { model_file: &loaded.file.name, out_file, model: loaded.file.bytes(), centre: loaded.model.centre };
     let source = source::source(&origin, &loaded.model, &loaded.body)?;
-    Ok(Baked { source, bytes: bytes(&loaded) })
+    let patches = loaded.body.faces.iter().map(|face| face.patch.to_patch()).collect::<Result<Vec<_>, _>>()?;
+    let middle = felt::middle(patches.iter());
+    Ok(Baked { source, bytes: bytes(&loaded), middle, centre: loaded.model.centre })
 }
 
 /// A model's body as a file, as [`run`] writes it with its defaults.

@@ -122,6 +122,15 @@ impl SoftModes {
     }
 }
 
+/// The middle of the box around points of these patches.
+pub(super) fn middle<'a>(patches: impl Iterator<Item = &'a SplinePatch<'a>>) -> Vec3 {
+    let grid = || (0..=16).flat_map(|i| (0..=16).map(move |j| (i as f32 / 16.0, j as f32 / 16.0)));
+    let (low, high) = patches
+        .flat_map(|patch| grid().map(|(u, v)| patch.evaluate(u, v).point))
+        .fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), point| (low.min(point), high.max(point)));
+    0.5 * (low + high)
+}
+
 impl Felt {
     /// The patch of this name or number; without one, the body, or the only patch.
     ///
@@ -241,13 +250,7 @@ impl Felt {
         if let Self::Scene(scene) = self {
             return scene.middle();
         }
-        let grid = || (0..=16).flat_map(|i| (0..=16).map(move |j| (i as f32 / 16.0, j as f32 / 16.0)));
-        let points = self.patches().into_iter().flat_map(|patch| grid().map(|(u, v)| patch.evaluate(u, v).point));
-        let (low, high) = points
-            .fold((Vec3::splat(f32::INFINITY), Vec3::splat(f32::NEG_INFINITY)), |(low, high), point| {
-                (low.min(point), high.max(point))
-            });
-        0.5 * (low + high)
+        middle(self.patches().into_iter())
     }
 
     /// Where a hand may touch: a point and the outward normal for each `(u, v)` in `[0, 1]²`. On a patch its own

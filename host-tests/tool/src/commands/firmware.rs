@@ -1,12 +1,14 @@
 //! `palpate firmware`: cargo for the boards.
 
-use super::bake;
 use super::output::write_whole;
+use super::{bake, long_calls, options};
 use crate::commission::RATE;
 use crate::firmware::{self, AnyBoard, Kind, Place, Progress, SetUpError, Toolchain, choose_body};
 use crate::{devices, repository};
-use anyhow::Context;
+use anyhow::{Context, ensure};
 use clap::Args;
+use glam::DVec3;
+use palpate::math::Vec3;
 use palpate_sim::devices::{settings_source, source};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -29,6 +31,9 @@ pub struct Arguments {
     /// Device: your own file (my.toml), or the name of a shipped one
     #[arg(long, value_name = "DEVICE")]
     device: Option<PathBuf>,
+    /// Origin of the body in the workspace: x,y,z in mm from its centre; default: the body is centred, as in `sim`
+    #[arg(long, value_name = "X,Y,Z", value_parser = options::millimetres, allow_hyphen_values = true, requires = "body")]
+    at: Option<DVec3>,
     /// Servo rate, Hz: a whole number from 3000 up to 20000, or 40000 on teensy41; default: 4000
     #[arg(long, value_name = "HZ")]
     rate: Option<u32>,
@@ -45,7 +50,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let progress = Progress::new();
     let chosen = match &arguments.body {
         None => None,
-        Some(model) => Some(chosen(arguments.board, arguments.kind(), model)?),
+        Some(model) => Some(chosen(arguments.board, arguments.kind(), model, arguments.at)?),
     };
     if let Some(Chosen { place: None, says, .. }) = &chosen {
         eprintln!("{says}");
@@ -53,21 +58,26 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     }
     let toolchain = Toolchain::set_up(arguments.board.target(), &progress)?;
     let mut command = command(&toolchain, arguments, &progress)?;
-    if let Some(Chosen { file, place: Some(place), .. }) = &chosen {
+    if let Some(Chosen { file, place: Some(place), origin, .. }) = &chosen {
         choose_body(&mut command, Some((file, *place)))?;
+        command.env("PALPATE_ORIGIN", origin.to_array().map(|metres| format!("{metres:?}")).join(","));
     }
     if let Some(device) = &arguments.device {
         let (variable, file) = constants(arguments.board, device)?;
         command.env(variable, file);
     }
+    let is_bench = matches!(arguments.board, AnyBoard::Bench(_));
+    ensure!(
+        is_bench || (arguments.at.is_none() && arguments.rate.is_none()),
+        "--at and --rate apply to the boards for the bench; an emulated board takes those of `demo`"
+    );
     if let Some(rate) = arguments.rate {
-        anyhow::ensure!(
-            matches!(arguments.board, AnyBoard::Bench(_)),
-            "--rate is of the boards for the bench; an emulated board's rate is that of `demo --rate`"
-        );
         command.env("PALPATE_RATE", rate.to_string());
     }
-    let status = command.current_dir(arguments.board.folder()?).status().with_context(|| format!("{command:?}"))?;
+    command.current_dir(arguments.board.folder()?);
+    let is_build = arguments.accepts() || arguments.cargo[0] == "build";
+    let status = if is_build { long_calls::build(&mut command) } else { command.status() };
+    let status = status.with_context(|| format!("{command:?}"))?;
     if !status.success() {
         return Ok(ExitCode::FAILURE);
     }
@@ -82,6 +92,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     if let (AnyBoard::Bench(board), true) = (arguments.board, is_built && chosen.is_some()) {
         let image = toolchain.target_folder()?.join(board.target()).join("release").join(board.name());
         print!("{}", firmware::report(board, arguments.kind(), &image)?);
+        println!("image: {}\nto flash it: {}", image.display(), board.flashing(&image));
     }
     Ok(ExitCode::SUCCESS)
 }
@@ -119,12 +130,14 @@ struct Chosen {
     file: PathBuf,
     /// Where its tables lie; `None` if they do not fit.
     place: Option<Place>,
+    /// The origin of its frame in the workspace, metres.
+    origin: Vec3,
     /// That in words.
     says: String,
 }
 
 /// Bakes a model for a board.
-fn chosen(board: AnyBoard, kind: Kind, model: &Path) -> anyhow::Result<Chosen> {
+fn chosen(board: AnyBoard, kind: Kind, model: &Path, at: Option<DVec3>) -> anyhow::Result<Chosen> {
     let name = model.file_stem().map_or_else(|| "body".to_owned(), |stem| stem.to_string_lossy().into_owned());
     let out_file = format!("{name}.rs");
     let baked = bake::baked(model, &out_file)?;
@@ -134,7 +147,21 @@ fn chosen(board: AnyBoard, kind: Kind, model: &Path) -> anyhow::Result<Chosen> {
         AnyBoard::Emulated(_) => (Some(Place::Fast), "in flash".to_owned()),
         AnyBoard::Bench(board) => (board.place(kind, baked.bytes), board.says(kind, baked.bytes)),
     };
-    Ok(Chosen { file, place, says: format!("{name} on {}: {} bytes of tables {lies}", board.name(), baked.bytes) })
+    let origin = at.map_or(-baked.middle, |at| (at + baked.centre).as_vec3());
+    // Without negative zeros.
+    let [x, y, z] = (origin.as_dvec3() * 1e3 + DVec3::ZERO).to_array();
+    let lies = match board {
+        AnyBoard::Emulated(_) => lies,
+        AnyBoard::Bench(_) => {
+            format!("{lies}\norigin of the body: {x:.1}, {y:.1}, {z:.1} mm from the centre of the workspace")
+        }
+    };
+    Ok(Chosen {
+        file,
+        place,
+        origin,
+        says: format!("{name} on {}: {} bytes of tables {lies}", board.name(), baked.bytes),
+    })
 }
 
 /// The constants of a device for a board's build, and the variable that names their file.

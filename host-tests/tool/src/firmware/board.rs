@@ -3,7 +3,7 @@
 use crate::repository::{self, NoRepository};
 use clap::ValueEnum;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// An emulated board. All run the same programs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, ValueEnum)]
@@ -132,6 +132,18 @@ impl BenchBoard {
         match self {
             Self::Stm32g4 | Self::Teensy41 => "thumbv7em-none-eabihf",
             Self::Pico2 => "thumbv8m.main-none-eabihf",
+        }
+    }
+
+    /// The command that flashes an image.
+    pub fn flashing(self, image: &Path) -> String {
+        let image = image.display();
+        match self {
+            Self::Stm32g4 => format!("probe-rs run --chip STM32G474RETx {image}"),
+            Self::Pico2 => format!("picotool load -u -v -x -t elf {image} (hold BOOTSEL while plugging in)"),
+            Self::Teensy41 => format!(
+                "llvm-objcopy -O ihex {image} teensy41.hex && teensy_loader_cli --mcu=TEENSY41 -w teensy41.hex (press the board's button)"
+            ),
         }
     }
 
