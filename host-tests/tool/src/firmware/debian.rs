@@ -34,7 +34,7 @@ pub(super) fn set_up(target: &str, progress: &Progress) -> Result<Way, SetUpErro
     let linker = find_linker(target).ok_or_else(|| missing("the linker lld"))?;
     let (sysroot, stamp) = (compiler.sysroot(&cache_folder()?, target), compiler.stamp());
     if !is_built(target, &sysroot, &stamp) {
-        let what = format!("building the library for {target}, once, into {}", sysroot.display());
+        let what = format!("building the library for {target}, once, about 20 s, into {}", sysroot.display());
         progress.during(&what, || build(target, &sysroot, &stamp))?;
     }
     Ok(Way::Debian { sysroot, linker })

@@ -101,10 +101,11 @@ pub fn build_program(
     for feature in features {
         cargo.args(["--features", feature]);
     }
-    let what = format!("building the firmware image {program} for {}", choice.board.core());
+    let built = choice.target_folder(toolchain)?.join(toolchain.target()).join("release").join(program);
+    let first = if built.exists() { "" } else { ", the first time about half a minute" };
+    let what = format!("building the firmware image {program} for {}{first}", choice.board.core());
     progress.during(&what, || output(&mut cargo))?;
 
-    let built = choice.target_folder(toolchain)?.join(toolchain.target()).join("release").join(program);
     let elf = folder.join(program);
     fs::copy(&built, &elf).map_err(SetUpError::io(built.display()))?;
     measure(choice.board, elf)

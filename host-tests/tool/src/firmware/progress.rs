@@ -3,6 +3,8 @@
 use indicatif::{ProgressBar, ProgressStyle};
 use std::env;
 use std::io::{IsTerminal, stderr};
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::thread;
 use std::time::{Duration, Instant};
 
 /// Prints the current step on standard error.
@@ -28,7 +30,8 @@ impl Progress {
         eprintln!("{line}");
     }
 
-    /// Does some work, named in the present ("building the image"), and says how long it took.
+    /// Does some work, named in the present ("building the image"), and says how long it took; where there is no
+    /// spinner, also every half minute that it is still at work.
     pub fn during<T>(&self, what: &str, work: impl FnOnce() -> T) -> T {
         let start = Instant::now();
         let result = if self.spins {
@@ -42,11 +45,29 @@ impl Progress {
             result
         } else {
             self.say(&format!("{what} ..."));
-            work()
+            while_telling(what, start, work)
         };
         self.say(&format!("{what}: {:.1} s", start.elapsed().as_secs_f32()));
         result
     }
+}
+
+/// Time between two lines where there is no spinner.
+const EVERY: Duration = Duration::from_secs(30);
+
+fn while_telling<T>(what: &str, start: Instant, work: impl FnOnce() -> T) -> T {
+    let (done, waits) = mpsc::channel::<()>();
+    thread::scope(|scope| {
+        scope.spawn(move || {
+            // The sender is dropped when the work ends, also by a panic.
+            while waits.recv_timeout(EVERY) == Err(RecvTimeoutError::Timeout) {
+                eprintln!("{what}: {:.0} s so far", start.elapsed().as_secs_f32());
+            }
+        });
+        let result = work();
+        drop(done);
+        result
+    })
 }
 
 /// Shows the importer's lines of progress, at a terminal as one line, elsewhere one every ten seconds, and returns the
