@@ -32,6 +32,8 @@ pub struct Recording {
     pub rate: f64,
     /// Its ticks, in order.
     pub ticks: Vec<Tick>,
+    /// The device's name, where the recording has it.
+    pub device: Option<String>,
 }
 
 /// Why a run gives no recording.
@@ -88,5 +90,5 @@ pub fn record<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize>(
         }
         plant.advance(duties);
     }
-    Ok(Recording { rate, ticks })
+    Ok(Recording { rate, ticks, device: None })
 }

@@ -28,7 +28,7 @@ pub fn read(path: &Path) -> anyhow::Result<Recording> {
         Ok([needed(&format!("{stem}_x"))?, needed(&format!("{stem}_y"))?, needed(&format!("{stem}_z"))?])
     };
     let (probe, force, gap, contact) = (axes("probe")?, axes("force")?, needed("gap")?, needed("contact")?);
-    let (time, rate) = (column("time"), column("rate"));
+    let (time, rate, device) = (column("time"), column("rate"), column("device"));
     if time.is_none() && rate.is_none() {
         bail!("{}: no column \"time\" or \"rate\"", path.display());
     }
@@ -53,6 +53,9 @@ pub fn read(path: &Path) -> anyhow::Result<Recording> {
             && record.get(column).is_some_and(|text| !text.is_empty())
         {
             rates.push(at(column)?);
+        }
+        if recording.device.is_none() {
+            recording.device = device.and_then(|column| record.get(column)).map(str::to_owned);
         }
         recording.ticks.push(Tick {
             probe: vector(probe)?,

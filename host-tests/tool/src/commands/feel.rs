@@ -70,7 +70,9 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let threshold = arguments.threshold.as_deref().map_or_else(|| Ok(Threshold::approximate()), read_threshold)?;
     if let Some(path) = &arguments.recording {
-        let Arms::One(device) = arguments.device else { bail!("--recording needs one device: add --device NAME") };
+        let Arms::One(device) = arguments.device else {
+            bail!("--recording needs the device it was made with: add --device NAME, or your file")
+        };
         print_recording(path, device, &threshold)?;
         return Ok(ExitCode::SUCCESS);
     }
@@ -141,6 +143,9 @@ fn read_threshold(path: &Path) -> anyhow::Result<Threshold> {
 
 fn print_recording(path: &Path, device: &ShippedDevice, threshold: &Threshold) -> anyhow::Result<()> {
     let recording = recorded::read(path)?;
+    if let Some(made) = recording.device.as_deref().filter(|made| *made != device.name) {
+        bail!("{}: recorded with {made}, not with {}: change --device", path.display(), device.name);
+    }
     let figures = recorded::figures(&recording, Slice::of(device).mass, threshold);
     let milli = |force: f64| format!("{:.1} mN", force * 1e3);
     let seconds = recording.ticks.len() as f64 / recording.rate;

@@ -8,7 +8,6 @@ use crate::report::Summary;
 use crate::simulation::{self, Trace};
 use anyhow::Context;
 use clap::Args;
-use glam::DVec3;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -34,7 +33,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let trace = run_on_host(&arguments.scene, &scene)?;
     print!("{}", Summary::new(&trace));
     if let Some(path) = &arguments.csv {
-        write_csv(&trace, scene.centre, path).with_context(|| format!("cannot write {}", path.display()))?;
+        write_csv(&trace, &scene, path).with_context(|| format!("cannot write {}", path.display()))?;
         println!("  {:<20} {}", "recorded to", path.display());
     }
     if let Some(path) = &arguments.recording {
@@ -65,12 +64,12 @@ pub fn run_on_host(options: &SceneOptions, scene: &Scene) -> anyhow::Result<Trac
     Ok(trace)
 }
 
-/// One row a tick; SI units, the probe in the model's own frame.
-fn write_csv(trace: &Trace, centre: DVec3, path: &Path) -> anyhow::Result<()> {
+/// One row a tick; SI units, the probe in the model's own frame; last the device's name.
+fn write_csv(trace: &Trace, scene: &Scene, path: &Path) -> anyhow::Result<()> {
     let mut writer = csv::Writer::from_path(path)?;
     writer.write_record([
         "time", "count_a", "count_b", "count_c", "duty_a", "duty_b", "duty_c", "phase", "fault", "mode", "contact",
-        "u", "v", "probe_x", "probe_y", "probe_z", "gap", "force_x", "force_y", "force_z",
+        "u", "v", "probe_x", "probe_y", "probe_z", "gap", "force_x", "force_y", "force_z", "device",
     ])?;
     for sample in &trace.samples {
         let report = &sample.report;
@@ -79,9 +78,10 @@ fn write_csv(trace: &Trace, centre: DVec3, path: &Path) -> anyhow::Result<()> {
         row.extend(report.duties.map(|duty| duty.to_string()));
         row.extend([report.phase, report.fault, report.mode, report.contact].map(|number| number.to_string()));
         row.extend(report.parameters.map(|parameter| parameter.to_string()));
-        row.extend([0, 1, 2].map(|axis| placed(report.probe[axis], centre[axis])));
+        row.extend([0, 1, 2].map(|axis| placed(report.probe[axis], scene.centre[axis])));
         row.push(report.gap.to_string());
         row.extend(report.force.map(|component| component.to_string()));
+        row.push(scene.device.name.to_owned());
         writer.write_record(row)?;
     }
     writer.flush()?;

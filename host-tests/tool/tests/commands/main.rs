@@ -14,4 +14,5 @@ mod protected_demo;
 mod queries;
 mod race;
 mod race_on_target;
+mod recordings;
 mod talking;

@@ -1,0 +1,65 @@
+//! Recordings of `sim`: what a hand got, and which device it had in it.
+
+use std::error::Error;
+use std::path::Path;
+use std::process::{Command, Output};
+
+fn palpate(arguments: &[&str]) -> Result<Output, Box<dyn Error>> {
+    Ok(Command::new(env!("CARGO_BIN_EXE_palpate")).args(arguments).output()?)
+}
+
+/// Records five seconds on a device, with further options.
+fn record(device: &str, options: &[&str], csv: &Path) -> Result<(), Box<dyn Error>> {
+    let csv = csv.to_str().unwrap_or_default();
+    let run = palpate(&[&["sim", "--device", device, "--csv", csv], options].concat())?;
+    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+    Ok(())
+}
+
+/// The largest step of the force between two rows, N.
+fn largest_step(csv: &Path) -> Result<f64, Box<dyn Error>> {
+    let mut reader = csv::Reader::from_path(csv)?;
+    let columns = ["force_x", "force_y", "force_z"];
+    let headers = reader.headers()?.clone();
+    let at = columns.map(|name| headers.iter().position(|header| header == name).expect("the column"));
+    let (mut last, mut largest) = (None, 0.0_f64);
+    for row in reader.records() {
+        let row = row?;
+        let force = at.map(|column| row[column].parse::<f64>().expect("a number"));
+        let step = last.map_or(0.0, |last: [f64; 3]| {
+            force.iter().zip(last).map(|(now, before)| (now - before).powi(2)).sum::<f64>().sqrt()
+        });
+        (last, largest) = (Some(force), largest.max(step));
+    }
+    Ok(largest)
+}
+
+/// 200 N/s are 50 mN a tick at 4 kHz.
+#[test]
+fn a_run_is_as_smooth_as_is_recommended_unless_it_is_to_be_plain() -> Result<(), Box<dyn Error>> {
+    let folder = tempfile::tempdir()?;
+    let csv = folder.path().join("run.csv");
+    for device in ["woodenhaptics-2016", "falcon"] {
+        record(device, &[], &csv)?;
+        let smooth = largest_step(&csv)?;
+        record(device, &["--rendering", "plain"], &csv)?;
+        let plain = largest_step(&csv)?;
+        println!("{device}: largest step {:.1} mN, plain {:.1} mN", smooth * 1e3, plain * 1e3);
+        assert!(smooth < 0.0501 && plain > 0.1, "{device}: {smooth} N, plain {plain} N");
+    }
+    Ok(())
+}
+
+#[test]
+fn a_recording_of_another_device_is_refused() -> Result<(), Box<dyn Error>> {
+    let folder = tempfile::tempdir()?;
+    let csv = folder.path().join("run.csv");
+    record("falcon", &[], &csv)?;
+    let feel = |device| palpate(&["feel", "--device", device, "--recording", csv.to_str().unwrap_or_default()]);
+    let refused = feel("polhem-v2")?;
+    let message = String::from_utf8(refused.stderr)?;
+    assert_eq!(refused.status.code(), Some(2), "{message}");
+    assert!(message.contains("recorded with falcon, not with polhem-v2"), "{message}");
+    assert!(feel("falcon")?.status.success());
+    Ok(())
+}
