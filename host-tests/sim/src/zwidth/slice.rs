@@ -1,7 +1,7 @@
 //! A device along one direction: what a wall's push has to move.
 
 use crate::devices::ShippedDevice;
-use crate::plant::{Amplifier, JointSettings, dot, inverse, scaled, times};
+use crate::plant::{Amplifier, JointSettings, Vector, dot, inverse, scaled, times};
 use palpate::device::drive::Feed;
 use palpate::render::bounds::DeviceFriction;
 
@@ -35,10 +35,25 @@ impl Slice {
     /// # Panics
     /// If the device cannot be at the middle of its own workspace.
     pub fn of(device: &ShippedDevice) -> Self {
+        let mut direction = [0.0; 3];
+        direction[device.plant.mechanism(0.0).joints() - 1] = 1.0;
+        Self::along(device, [0.0; 3], direction).expect("the middle of the workspace is within reach")
+    }
+
+    /// The same at a position, m, along a unit vector; `None` out of reach, or where the device fades its force out.
+    pub fn along(device: &ShippedDevice, position: Vector, direction: Vector) -> Option<Self> {
         let settings = device.plant;
         let mechanism = settings.mechanism(0.0);
-        let angles = mechanism.angles([0.0; 3]).expect("the middle of the workspace is within reach");
-        let along = mechanism.jacobian(angles)[mechanism.joints() - 1];
+        let angles = mechanism.angles(position)?;
+        let is_within = |(joint, angle): (&JointSettings, &f64)| joint.stops[0] <= *angle && *angle <= joint.stops[1];
+        if !settings.joints.iter().zip(&angles).take(mechanism.joints()).all(is_within)
+            || device.preset.room(angles) < 1.0
+        {
+            return None;
+        }
+        let rows = mechanism.jacobian(angles);
+        // Joint rates of a unit force along the direction, by its torques.
+        let along: Vector = std::array::from_fn(|joint| (0..3).map(|axis| direction[axis] * rows[axis][joint]).sum());
         // An impulse along the direction, and what it does: joint rates, scaled to 1 m/s.
         let free = times(&inverse(&mechanism.mass_matrix(angles)), along);
         let mass = 1.0 / dot(along, free);
@@ -61,7 +76,29 @@ impl Slice {
             slice.resolution += (along[index] / encoder.counts_per_radian).abs();
             slice.time_constant = slice.time_constant.max(constant);
         }
-        slice
+        Some(slice)
+    }
+
+    /// Where an undamped wall of a device is weakest: position, direction and slice, over a grid of 30 mm and the 13
+    /// directions to the sides, edges and corners of a cube.
+    ///
+    /// Ordered by the Coulomb friction's work in a swing of a count, against that of a delayed spring: the stiffness at
+    /// which both are equal rises with `friction · √mass / count`.
+    pub fn weakest(device: &ShippedDevice) -> Option<(Vector, Vector, Self)> {
+        let joints = device.plant.mechanism(0.0).joints();
+        let steps = |axis: usize, most: i32| if axis < joints { -most..=most } else { 0..=0 };
+        let grid = |most: i32| {
+            let x = steps(0, most).flat_map(move |x| steps(1, most).map(move |y| [x, y]));
+            x.flat_map(move |[x, y]| steps(2, most).map(move |z| [x, y, z].map(f64::from)))
+        };
+        // One of each pair of opposite directions: the first number that is not zero is positive.
+        let is_forward = |way: &Vector| way.iter().find(|number| **number != 0.0).is_some_and(|first| *first > 0.0);
+        let directions: Vec<Vector> =
+            grid(1).filter(is_forward).map(|way| scaled(way, dot(way, way).sqrt().recip())).collect();
+        let all = grid(5).flat_map(|place| directions.iter().map(move |way| (scaled(place, 0.03), *way)));
+        let known = all.filter_map(|(place, way)| Some((place, way, Self::along(device, place, way)?)));
+        let rank = |slice: &Self| slice.coulomb * slice.mass.sqrt() / slice.resolution;
+        known.min_by(|(.., one), (.., other)| rank(one).total_cmp(&rank(other)))
     }
 
     /// The device's friction, as input of the library's bounds.
@@ -90,6 +127,8 @@ fn force_source(joint: &JointSettings, feed: &Feed, current_loop: f64) -> (f64, 
 mod tests {
     use super::*;
     use crate::devices::{DEVICES, named};
+    use crate::zwidth::{Loop, max_stiffness};
+    use palpate::device::VelocityMethod;
 
     #[test]
     fn wooden_haptics_is_what_was_worked_out_from_its_drawing() {
@@ -104,6 +143,50 @@ mod tests {
         ] {
             // Stated to about three digits.
             assert!((found / stated - 1.0).abs() < 0.005, "{found} {stated}");
+        }
+    }
+
+    /// The stiffest walls that come to rest, with 0, 2 and 8 N·s/m, of an arm in MuJoCo: 16 to 32 kHz physics, a loop of 4 kHz
+    /// with one period of delay. That arm also leaves its line, which a slice cannot: up to 14 % of its limit.
+    #[test]
+    fn the_walls_of_wooden_haptics_are_those_of_mujoco_in_each_direction() {
+        let device = named("woodenhaptics-2016").unwrap();
+        let servo =
+            Loop { rate: 4_000.0, delay_periods: 1.0, velocity: VelocityMethod::LowPass, corner: 200.0, ease: None };
+        for (way, stiffest) in [
+            ([1.0, 0.0, 0.0], [696.0, 4_948.0, 11_797.0]),
+            ([0.0, 1.0, 0.0], [930.0, 5_290.0, 14_099.0]),
+            ([0.0, 0.0, 1.0], [1_736.0, 6_183.0, 14_742.0]),
+        ] {
+            let slice = Slice::along(device, [0.0; 3], way).unwrap();
+            for (damping, wanted) in [0.0, 2.0, 8.0].into_iter().zip(stiffest) {
+                let found = max_stiffness(&slice, damping, &servo);
+                println!("{way:?}, {damping} N·s/m: {found:.0} N/m, {wanted} in MuJoCo");
+                assert!((0.98..1.14).contains(&(found / wanted)), "{way:?} {damping}: {found} {wanted}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_weakest_direction_of_a_device_is_weaker_than_any_at_the_middle_of_its_workspace() {
+        let servo =
+            Loop { rate: 4_000.0, delay_periods: 1.0, velocity: VelocityMethod::LowPass, corner: 200.0, ease: None };
+        for device in DEVICES.iter().filter(|device| device.preset.feeds().len() > 1) {
+            let undamped = |slice: &Slice| max_stiffness(slice, 0.0, &servo);
+            let (place, way, slice) = Slice::weakest(device).unwrap();
+            println!("{}: {:.0} N/m at {place:?} along {way:?}", device.name, undamped(&slice));
+            for axis in 0..device.preset.feeds().len() {
+                let mut way = [0.0; 3];
+                way[axis] = 1.0;
+                let middle = Slice::along(device, [0.0; 3], way).unwrap();
+                // To two steps of the search.
+                assert!(
+                    undamped(&slice) <= 1.04 * undamped(&middle),
+                    "{}: axis {axis}: {}",
+                    device.name,
+                    undamped(&middle)
+                );
+            }
         }
     }
 

@@ -14,11 +14,16 @@ use anyhow::Context;
 use clap::{Args, ValueEnum};
 use palpate::device::VelocityMethod;
 use palpate::render::Ease;
-use palpate_sim::zwidth::{DAMPINGS, DELAYS, Limit, Loop, RATES, Slice, in_words};
+use palpate_sim::zwidth::{DAMPINGS, DELAYS, Limit, Loop, RATES, Slice, in_words, max_stiffness};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+/// Dampings for which the weakest direction is printed, N·s/m.
+const WEAKEST: [f64; 3] = [0.0, 2.0, 8.0];
+
 /// Finds the stiffest and most damped wall of a device: a table, and a plot with the passive bound.
+///
+/// The table is along z at the middle of the workspace; for one device the weakest direction of the workspace follows.
 #[derive(Args, Debug)]
 pub struct Arguments {
     /// Device: a name, your own file (my.toml), or `all`.
@@ -92,7 +97,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     };
     let slice = Slice::of(device);
     let limits = sweep_with_bar(&slice, &rates, &DELAYS, like, None)?;
-    print_table(&slice, device, arguments, &rates, &limits);
+    print_table(&slice, device, arguments, &rates, &limits, like);
     if let Some(folder) = arguments.plot.parent() {
         std::fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
     }
@@ -101,7 +106,14 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-fn print_table(slice: &Slice, device: &ShippedDevice, arguments: &Arguments, rates: &[f64], limits: &[Limit]) {
+fn print_table(
+    slice: &Slice,
+    device: &ShippedDevice,
+    arguments: &Arguments,
+    rates: &[f64],
+    limits: &[Limit],
+    like: Loop,
+) {
     println!(
         "{}: {:.4} kg, {:.3} N·s/m, {:.3} N of dry friction, {:.0} µm; velocity {:?}, {} Hz",
         slice.name,
@@ -130,6 +142,22 @@ fn print_table(slice: &Slice, device: &ShippedDevice, arguments: &Arguments, rat
         }
     }
     println!();
+    if let Some((place, way, weak)) = Slice::weakest(device) {
+        let ([x, y, z], [along_x, along_y, along_z]) = (place.map(|length| 1e3 * length), way);
+        println!(
+            "weakest in the workspace: at ({x:.0}, {y:.0}, {z:.0}) mm along ({along_x:.2}, {along_y:.2}, {along_z:.2}), {:.4} kg, behind 1 period",
+            weak.mass
+        );
+        for rate in rates {
+            let servo = Loop { rate: *rate, delay_periods: 1.0, ..like };
+            print!("  {} kHz", rate / 1_000.0);
+            for damping in WEAKEST {
+                print!("   {damping} N·s/m: {} N/m", in_words(&weak, max_stiffness(&weak, damping, &servo)));
+            }
+            println!();
+        }
+        println!();
+    }
     for delay in DELAYS {
         let best = |rate: f64| best(limits, rate, delay)[0];
         print!("delay {delay} T: maximum at any damping");
