@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Builds the wheel, installs it in a fresh virtual environment and runs its tests there: `palpate test --python`.
+"""Builds the wheel, installs it in a fresh virtual environment and runs its tests there: `palpate test --python`. With
+`--wheel FOLDER` it builds the wheel alone, for `palpate wheel`.
 
 What is missing (maturin, pytest, what the notebooks need) goes into virtual environments in target/python, and is said;
-nothing else on the machine is touched. Further arguments go to pytest.
+nothing else on the machine is touched. Other arguments go to pytest.
 """
 
 from __future__ import annotations
@@ -69,7 +70,7 @@ def plain_loop() -> Path:
 
 def main() -> int:
     if sys.version_info < (3, 10):
-        say(f"the tests of the wheel need Python 3.10, and {sys.executable} is {sys.version.split()[0]}")
+        say(f"the wheel needs Python 3.10, and {sys.executable} is {sys.version.split()[0]}")
         return 2
     if importlib.util.find_spec("ensurepip") is None:
         say(f"{sys.executable} makes no virtual environments: install python3-venv, or another Python")
@@ -77,6 +78,12 @@ def main() -> int:
     builder = environment("builder", MATURIN)
     say("building the wheel; the first time takes minutes")
     made = wheel(builder)
+    if sys.argv[1:2] == ["--wheel"]:
+        to = Path(sys.argv[2])
+        to.mkdir(parents=True, exist_ok=True)
+        made = Path(shutil.copy2(made, to)) if to.resolve() != made.parent else made
+        print(f"{made}: {made.stat().st_size:,} bytes\ninstall it: python3 -m pip install {made}")
+        return 0
     say(f"{made.name}: {made.stat().st_size:,} bytes")
     loop = plain_loop()
     fresh = environment("fresh", f"{made}[test]", anew=True)

@@ -116,6 +116,32 @@ fn for_host(core: Core, progress: &Progress) -> Result<PathBuf, SetUpError> {
     Ok(built.join("abort/libpalpate.a"))
 }
 
+/// A shared library out of the static one of this machine: it exports the functions of the header.
+///
+/// # Errors
+/// An error of the linker.
+pub fn shared(library: &Path, out: &Path) -> anyhow::Result<()> {
+    let exported = out.with_extension("map");
+    fs::write(&exported, "{ global: palpate_*; local: *; };\n")?;
+    let mut gcc = Command::new("cc");
+    gcc.args(["-shared", "-Wl,--whole-archive"]).arg(library).args(["-Wl,--no-whole-archive", "-Wl,--gc-sections"]);
+    gcc.args(["-Wl,-soname,libpalpate.so", "-Wl,--strip-debug"]);
+    output(gcc.arg(format!("-Wl,--version-script={}", exported.display())).arg("-o").arg(out))?;
+    Ok(fs::remove_file(exported)?)
+}
+
+/// Takes the debugger's tables, and so the builder's paths, out of a library, if the tool for that is there.
+///
+/// # Errors
+/// An error of that tool.
+pub fn strip(core: Core, library: &Path) -> Result<(), SetUpError> {
+    let program = if core.arduino().is_empty() { "strip" } else { "arm-none-eabi-strip" };
+    if on_path(program).is_some() {
+        output(Command::new(program).arg("--strip-debug").arg(library))?;
+    }
+    Ok(())
+}
+
 /// The compiler's name for this machine.
 fn host() -> Result<String, SetUpError> {
     let mut rustc = Command::new("rustc");

@@ -3,7 +3,7 @@
 use clap::{Parser, Subcommand};
 use palpate_tool::commands::{
     accept, bake, budgets, c_library, check, closest, commission, cycles, demo, device, faults, feel, figures,
-    firmware, image, import, monitor, page, pair, parts, race, sim, talk, test, zwidth,
+    firmware, image, import, monitor, page, pair, parts, race, sim, talk, test, wheel, zwidth,
 };
 use std::process::ExitCode;
 
@@ -22,6 +22,7 @@ enum Command {
     Device(device::Arguments),
     Feel(feel::Arguments),
     Test(test::Arguments),
+    Wheel(wheel::Arguments),
     Check(check::Arguments),
     Bake(bake::Arguments),
     Budgets(budgets::Arguments),
@@ -54,6 +55,7 @@ fn main() -> ExitCode {
         Command::Feel(arguments) => feel::run(&arguments),
         Command::Device(arguments) => device::run(&arguments),
         Command::Test(arguments) => test::run(&arguments),
+        Command::Wheel(arguments) => wheel::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Bake(arguments) => bake::run(&arguments),
         Command::Budgets(arguments) => budgets::run(&arguments),

@@ -36,4 +36,5 @@ mod soft;
 mod table_report;
 pub mod talk;
 pub mod test;
+pub mod wheel;
 pub mod zwidth;

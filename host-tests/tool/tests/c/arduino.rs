@@ -1,4 +1,4 @@
-//! The folder for Arduino and PlatformIO: its sketch compiles and links with each of its libraries.
+//! The package for C: the sketch links with each of its libraries, and the loop of a host rests where two springs do.
 
 use crate::running::{alone, is_wanted, run};
 use clap::Parser;
@@ -22,8 +22,8 @@ void loop();
 ";
 
 #[test]
-fn the_sketch_links_with_every_library_of_the_folder() {
-    if !is_wanted("the Arduino library") {
+fn the_examples_of_the_package_link_with_its_libraries_and_the_loop_of_a_host_rests_where_two_springs_do() {
+    if !is_wanted("the package for C") {
         return;
     }
     let folder = tempfile::tempdir().expect("a folder");
@@ -42,6 +42,27 @@ fn the_sketch_links_with_every_library_of_the_folder() {
     }
     let json: String = fs::read_to_string(out.join("library.json")).expect("PlatformIO's").split_whitespace().collect();
     assert!(json.contains("\"extraScript\":\"link.py\"") && json.contains("\"libArchive\":false"), "{json}");
+
+    for manifest in [
+        "library.properties",
+        "library.json",
+        "lib/pkgconfig/palpate.pc",
+        "lib/cmake/palpate/palpate-config-version.cmake",
+    ] {
+        let text = fs::read_to_string(out.join(manifest)).expect(manifest);
+        assert!(text.contains(env!("CARGO_PKG_VERSION")), "{manifest} has another version:\n{text}");
+    }
+
+    let host = out.join("lib").join(format!("{}-{}", std::env::consts::OS, std::env::consts::ARCH));
+    for library in ["libpalpate.a", "libpalpate.so"] {
+        let program = folder.path().join("loop");
+        let mut gcc = in_c::compiler(Core::Host, "g++").expect("in the repository");
+        gcc.arg("-std=c++11").arg(out.join("examples/host/loop.cpp")).arg(host.join(library)).arg("-o").arg(&program);
+        run(&mut gcc);
+        let said = run(std::process::Command::new(&program).env("LD_LIBRARY_PATH", &host));
+        // 300 N/m of the hand, drawn 10 mm inside, against 500 N/m of the wall: 3.75 mm and 1.875 N.
+        assert_eq!(said, "depth 3.7500 mm, force 1.8750 N\n", "{library}");
+    }
 
     fs::write(folder.path().join("Arduino.h"), ARDUINO).expect("a header");
     let main = folder.path().join("main.cpp");

@@ -1,0 +1,28 @@
+# find_package(palpate CONFIG): palpate::palpate, the static library of the core that is compiled for; on a computer
+# palpate::shared too. The core is that of -mcpu in the flags, or else of the cache variable PALPATE_CORE.
+get_filename_component(_palpate "${CMAKE_CURRENT_LIST_DIR}/../../.." ABSOLUTE)
+if(PALPATE_CORE)
+  set(_palpate_core "${PALPATE_CORE}")
+elseif("${CMAKE_C_FLAGS} ${CMAKE_CXX_FLAGS}" MATCHES "-mcpu=(cortex-m[0-9]+)")
+  set(_palpate_core "${CMAKE_MATCH_1}")
+else()
+  string(TOLOWER "${CMAKE_SYSTEM_NAME}-${CMAKE_SYSTEM_PROCESSOR}" _palpate_core)
+endif()
+file(GLOB _palpate_found "${_palpate}/lib/${_palpate_core}/libpalpate.a" "${_palpate}/src/${_palpate_core}/*/libpalpate.a")
+if(NOT _palpate_found)
+  file(GLOB _palpate_cores RELATIVE "${_palpate}" "${_palpate}/lib/*/libpalpate.a" "${_palpate}/src/*/*/libpalpate.a")
+  set(palpate_FOUND FALSE)
+  set(palpate_NOT_FOUND_MESSAGE "no library for ${_palpate_core}; there are ${_palpate_cores}; name one in PALPATE_CORE")
+  return()
+endif()
+if(NOT TARGET palpate::palpate)
+  add_library(palpate::palpate STATIC IMPORTED)
+  set_target_properties(palpate::palpate PROPERTIES
+    IMPORTED_LOCATION "${_palpate_found}" INTERFACE_INCLUDE_DIRECTORIES "${_palpate}/src")
+  get_filename_component(_palpate_folder "${_palpate_found}" DIRECTORY)
+  if(EXISTS "${_palpate_folder}/libpalpate.so")
+    add_library(palpate::shared SHARED IMPORTED)
+    set_target_properties(palpate::shared PROPERTIES IMPORTED_LOCATION "${_palpate_folder}/libpalpate.so"
+      IMPORTED_SONAME libpalpate.so INTERFACE_INCLUDE_DIRECTORIES "${_palpate}/src")
+  endif()
+endif()
