@@ -474,7 +474,7 @@ typedef struct palpate_settings {
     uint32_t settle_ticks;    /**< Ticks of believable sensors before the loop is armed. */
     uint32_t wait_for_homing; /**< 1: the loop waits for #PALPATE_HOMED before it is armed. Its own homing waits anyway. */
     uint32_t leave_weight;    /**< 1: the motors do not carry the links' weight. */
-    uint32_t between_counts;  /**< 1: estimates the position between encoder counts; velocity_corner: rate / 50. */
+    uint32_t between_counts;  /**< 1: estimates the position between encoder counts, best with a corner of 80 Hz. */
 } palpate_settings;
 
 /** What a texture may look at. */

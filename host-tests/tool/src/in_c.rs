@@ -164,18 +164,11 @@ pub fn compiler(core: Core, program: &str) -> Result<Command, SetUpError> {
     Ok(gcc)
 }
 
-/// Builds the example for the emulated board, with a body's file and a device's constants in it, and with the demo's plain
-/// wall if `plain`; returns the image with its emulator.
+/// Builds the example for the emulated board, with a body's file and a device's constants in it; returns the image with its emulator.
 ///
 /// # Errors
 /// Missing tools or an error of a compiler.
-pub fn example(
-    body: &Path,
-    device: &ShippedDevice,
-    plain: bool,
-    elf: &Path,
-    progress: &Progress,
-) -> Result<Program, SetUpError> {
+pub fn example(body: &Path, device: &ShippedDevice, elf: &Path, progress: &Progress) -> Result<Program, SetUpError> {
     let library = library(Core::M4, progress)?;
     let folder = folder()?.join("examples/cube");
     let mut gcc = compiler(Core::M4, "gcc")?;
@@ -185,9 +178,6 @@ pub fn example(
     let header = beside.join("device.h");
     fs::write(&header, c_preset(device)).map_err(SetUpError::io(header.display()))?;
     gcc.arg("-I").arg(beside);
-    if plain {
-        gcc.arg("-DPLAIN");
-    }
     for source in ["main.c", "board.c", "startup_mps2.c", "part.S"] {
         gcc.arg(folder.join("Core/Src").join(source));
     }

@@ -49,7 +49,7 @@ fn the_example_in_c_computes_the_bits_of_the_image_in_rust_and_cannot_panic() {
     let elf = folder.path().join("example.elf");
     let example = {
         let _alone = alone();
-        in_c::example(&capped_box(), scene.device, true, &elf, &progress).expect("the example builds")
+        in_c::example(&capped_box(), scene.device, &elf, &progress).expect("the example builds")
     };
 
     // Another loop would take 40,000 bytes or more: the library holds ten, and the linker keeps the one that is started.

@@ -1,5 +1,5 @@
-/* The capped box under a WoodenHaptics arm, felt from C. device.h is what `palpate device woodenhaptics-2016 --out
-   device.h` writes; for your own arm, `palpate device my.toml --out device.h`. */
+/* The capped box under a WoodenHaptics arm, felt from C: the scene of `cargo palpate demo`. device.h is written by
+   `palpate device woodenhaptics-2016 --out device.h`; for your own arm, `palpate device my.toml --out device.h`. */
 #include "board.h"
 #include "device.h"
 
@@ -16,12 +16,6 @@ static void servo_init(void)
 {
     palpate_settings settings;
     if (device_settings(&settings) != PALPATE_OK) Error_Handler();
-#ifdef PLAIN /* the wall of the demo, whose every count a hand feels: for a comparison of bits */
-    settings.stiffness = 1000.0f;
-    settings.velocity_corner = 150.0f;
-    settings.between_counts = 0;
-    settings.ease_change = 0.0f;
-#endif
     settings.rate = RATE;
     settings.body_origin[0] = -0.03f;
     settings.body_origin[1] = -0.02f;
