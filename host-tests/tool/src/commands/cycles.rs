@@ -97,10 +97,10 @@ struct Felt {
     options: SceneOptions,
 }
 
-/// The image that counts ticks on a model's body, all protection on: of motors that are warm, so that the pulses of the
+/// The image that counts ticks on a model's body, rendered smoothly, all protection on: of motors that are warm, so that the pulses of the
 /// polarity check and the limits of heat are both among its ticks.
 fn protected_on(model: Option<&Path>, board: Board, progress: &Progress) -> anyhow::Result<Program> {
-    let Some(model) = model else { return Ok(Program::prepare(board, "budget", &["folded"], progress)?) };
+    let Some(model) = model else { return Ok(Program::prepare(board, "budget", &["folded", "smooth"], progress)?) };
     let words = [OsStr::new("demo"), OsStr::new("--model"), model.as_os_str()];
     let scene = Felt::try_parse_from(words)?.options.scene()?;
     let folder = tempfile::tempdir()?;
