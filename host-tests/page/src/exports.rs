@@ -16,6 +16,7 @@ use spin::Mutex;
 
 use crate::basin::{self, Method};
 use crate::felt::Loaded;
+use crate::knob;
 use crate::mesh;
 use crate::page::{Choices, Stage};
 use crate::replay::Monitor;
@@ -29,6 +30,7 @@ struct Exports {
     others: Vec<Loaded>,
     replay: Option<Box<dyn Replay>>,
     monitor: Monitor,
+    dial: Option<knob::Turned>,
 }
 
 static STATE: Mutex<Exports> = Mutex::new(Exports {
@@ -39,6 +41,7 @@ static STATE: Mutex<Exports> = Mutex::new(Exports {
     others: Vec::new(),
     replay: None,
     monitor: Monitor::new(),
+    dial: None,
 });
 
 impl Exports {
@@ -364,5 +367,60 @@ pub extern "C" fn monitor(length: usize) -> usize {
     if !output.is_empty() {
         output.extend([monitor.records as f32, monitor.damaged as f32]);
     }
+    output.len()
+}
+
+/// Sets a part of the simulated knob's feel, see `knob.rs`: 0, or −1 with a message.
+#[unsafe(no_mangle)]
+pub extern "C" fn knob_set(which: u32, a: f32, b: f32, c: f32, d: f32) -> i32 {
+    let mut state = STATE.lock();
+    match state.dial.get_or_insert_with(knob::Turned::new).set(knob::part(which, [a, b, c, d])) {
+        Ok(()) => 0,
+        Err(error) => state.say(&error),
+    }
+}
+
+/// Runs the knob for a number of ticks, in which fingers turn to an angle, radians, or hold nothing. The output is its
+/// view, see `knob.rs`.
+#[unsafe(no_mangle)]
+pub extern "C" fn knob_run(ticks: u32, to: f32, holds: u32) -> usize {
+    let mut state = STATE.lock();
+    let Exports { dial, output, .. } = &mut *state;
+    let dial = dial.get_or_insert_with(knob::Turned::new);
+    dial.run(ticks, to, holds != 0);
+    output.clear();
+    dial.view(output);
+    output.len()
+}
+
+/// The knob's torque at `count` places of a turn around an angle, radians, and at the last of them, N·m.
+#[unsafe(no_mangle)]
+pub extern "C" fn knob_curve(middle: f32, count: u32) -> usize {
+    let mut state = STATE.lock();
+    let Exports { dial, output, .. } = &mut *state;
+    output.clear();
+    dial.get_or_insert_with(knob::Turned::new).curve(middle, count, output);
+    output.len()
+}
+
+/// The same part as a frame for a device, under a number; under −1 a greeting, under −2 a sign of life. The output is its bytes, one
+/// a number.
+#[unsafe(no_mangle)]
+pub extern "C" fn knob_frame(number: i32, which: u32, a: f32, b: f32, c: f32, d: f32) -> usize {
+    let mut state = STATE.lock();
+    let bytes = knob::frame(number, knob::part(which, [a, b, c, d]));
+    state.output.clear();
+    state.output.extend(bytes.into_iter().map(f32::from));
+    state.output.len()
+}
+
+/// The last words of a knob on the line: whether it has greeted, the number that it has answered, or −1, whether that
+/// was refused, with the reason as the text; then, of its dial, angle with its turns, rate, torque, detent and end.
+#[unsafe(no_mangle)]
+pub extern "C" fn knob_heard() -> usize {
+    let mut state = STATE.lock();
+    let Exports { monitor, output, text, .. } = &mut *state;
+    text.clear();
+    text.push_str(&monitor.heard(output));
     output.len()
 }

@@ -12,6 +12,7 @@ extern crate alloc;
 mod basin;
 mod exports;
 mod felt;
+mod knob;
 mod mesh;
 mod page;
 mod replay;

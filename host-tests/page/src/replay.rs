@@ -13,7 +13,7 @@ use palpate::scene::Scene;
 use palpate::servo::{Config, Event, Guard, Input, Rendering, Safety, Servo, ServoState, Settings};
 use palpate::track::Controller;
 use palpate::wire::frame::{DELIMITER, Received, Receiver};
-use palpate::wire::{DeviceMessage, Record};
+use palpate::wire::{Answer, DeviceMessage, Dial, Record};
 use palpate_sim::recorded::{Mechanism, Recorded, SceneNumbers};
 
 /// How a run was made.
@@ -169,12 +169,16 @@ pub struct Monitor {
     /// Frames that are none.
     pub damaged: u32,
     last: Option<Record>,
+    greeted: bool,
+    answer: Option<Answer>,
+    dial: Option<Dial>,
 }
 
 impl Monitor {
     /// Before the first byte.
     pub const fn new() -> Self {
-        Self { receiver: Receiver::new(), in_step: false, records: 0, damaged: 0, last: None }
+        let receiver = Receiver::new();
+        Self { receiver, in_step: false, records: 0, damaged: 0, last: None, greeted: false, answer: None, dial: None }
     }
 
     /// Takes bytes as they come.
@@ -189,10 +193,25 @@ impl Monitor {
                     self.records += 1;
                     self.last = Some(record);
                 }
+                Some(Received::Message(DeviceMessage::Hello(_))) => self.greeted = true,
+                Some(Received::Message(DeviceMessage::Answer(answer))) => self.answer = Some(answer),
+                Some(Received::Message(DeviceMessage::Dial(dial))) => self.dial = Some(dial),
                 Some(Received::Damaged) => self.damaged += 1,
                 Some(Received::Empty | Received::Message(_)) | None => {}
             }
         }
+    }
+
+    /// The last words of a knob, see `exports.rs`; why it refused something.
+    pub fn heard(&self, out: &mut Vec<f32>) -> String {
+        let number = self.answer.map_or(-1.0, |answer| f32::from(answer.number));
+        let refused = self.answer.and_then(|answer| answer.refused);
+        out.clear();
+        out.extend([f32::from(u8::from(self.greeted)), number, f32::from(u8::from(refused.is_some()))]);
+        if let Some(Dial { turns, angle, rate, torque, detent, end, .. }) = self.dial {
+            out.extend([turns as f32 * core::f32::consts::TAU + angle, rate, torque, detent as f32, f32::from(end)]);
+        }
+        refused.map_or_else(String::new, |refused| refused.to_string())
     }
 
     /// The last record: tick, phase, fault, mode, contact, feature, gap, probe, force, and what a tick took and its

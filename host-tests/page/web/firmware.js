@@ -45,6 +45,11 @@ export class Device {
     return device;
   }
 
+  /** An instance without a body: a knob alone. */
+  static async bare() {
+    return new Device((await WebAssembly.instantiate(await module(), {})).exports);
+  }
+
   constructor(exports) {
     this.exports = exports;
   }
@@ -194,6 +199,39 @@ export class Device {
       records,
       damaged,
     };
+  }
+
+  /** Sets a part of the simulated knob's feel, from its numbers. */
+  setKnob(numbers) {
+    if (this.exports.knob_set(...numbers) < 0) throw new Error(this.#text());
+  }
+
+  /** So many ticks of the knob while a hand turns to an angle, radians, or lets go of it. */
+  turnKnob(ticks, angle, holds) {
+    this.exports.knob_run(ticks, angle, holds ? 1 : 0);
+    const [turned, whole, rate, torque, detent, end, phase, fault, step] = this.#numbers();
+    return { angle: turned, whole, rate, torque, detent, end, phase, fault, step };
+  }
+
+  /** Its torque at so many places of a turn around an angle. */
+  knobCurve(middle, count) {
+    this.exports.knob_curve(middle, count);
+    return this.#numbers();
+  }
+
+  /** A part of a feel as a frame for a device. */
+  knobFrame(number, numbers) {
+    this.exports.knob_frame(number, ...numbers);
+    return Uint8Array.from(this.#numbers());
+  }
+
+  /** What a knob on the line has said last. */
+  heardOfKnob() {
+    this.exports.knob_heard();
+    const [greeted, number, refused, ...dial] = this.#numbers();
+    const [angle, rate, torque, detent, end] = dial;
+    const told = dial.length ? { angle, rate, torque, detent, end } : null;
+    return { greeted: !!greeted, number, refused: refused ? this.#text() : "", dial: told };
   }
 
   #put(bytes) {

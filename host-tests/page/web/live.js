@@ -1,4 +1,7 @@
-// A device on a serial port, where the browser has Web Serial: the frames that `palpate monitor` reads.
+// A device on a serial port, where the browser has Web Serial: the frames that `palpate monitor` reads, and parts of a
+// knob's feel.
+
+import { Orders } from "orders";
 
 /** The speed that `palpate monitor` takes by default, Bd. */
 const SPEED = 500_000;
@@ -11,7 +14,7 @@ async function connect() {
   return port;
 }
 
-/** Tells of each chunk's last record until the port is closed, and then of nothing; what closes it. */
+/** Tells of each chunk's last record and of a knob's words until the port is closed, and then of nothing; what closes it. */
 function listen(port, device, tell) {
   const reader = port.readable.getReader();
   let reads = true;
@@ -19,15 +22,14 @@ function listen(port, device, tell) {
     while (reads) {
       const { value, done } = await reader.read();
       if (done) break;
-      const record = device.monitor(value);
-      if (record) tell(record);
+      tell(device.monitor(value), device.heardOfKnob());
     }
   })()
     .catch(() => {})
     .finally(async () => {
       reader.releaseLock();
       await port.close();
-      tell(null);
+      tell(null, null);
     });
   return () => {
     reads = false;
@@ -40,22 +42,35 @@ export async function toggle(page) {
   const by = (id) => document.getElementById(id);
   if (page.live) return page.live.stop();
   const { device } = page.body;
-  const tell = (record) => {
-    if (!record) {
+  const buttons = [by("serial"), by("knob-serial")];
+  const tell = (record, heard) => {
+    if (!heard) {
+      page.live.orders.stop();
       page.live = null;
-      by("serial").textContent = "Connect a device…";
+      buttons.forEach((button) => (button.textContent = "Connect a device…"));
+      by("knob-said").textContent = "";
       return;
     }
-    page.live.view = seen(record, device);
+    page.live.dial = heard.dial;
+    if (!record) return;
+    // A knob's record is of no body.
+    if (!heard.dial) page.live.view = seen(record, device);
     by("live").textContent =
       `${record.records} records, ${record.damaged} damaged; a tick took ${(record.took * 1e6).toFixed(1)} µs`;
   };
   try {
     const port = await connect();
     // Before the first byte is read.
-    page.live = { view: null };
+    page.live = { view: null, dial: null };
+    const write = async (bytes) => {
+      const writer = port.writable.getWriter();
+      await writer.write(bytes).finally(() => writer.releaseLock());
+    };
+    page.live.orders = new Orders(device, write, (refusal) => {
+      by("knob-said").textContent = refusal || "the device has it";
+    });
     page.live.stop = listen(port, device, tell);
-    by("serial").textContent = "Disconnect";
+    buttons.forEach((button) => (button.textContent = "Disconnect"));
   } catch (error) {
     // Whoever closes the browser's list of ports has chosen none.
     if (error.name !== "NotFoundError") page.refuse(error.message);

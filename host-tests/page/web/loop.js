@@ -50,7 +50,8 @@ export class Loop {
     this.place = this.next(seconds);
     const began = performance.now();
     this.device.run(ticks, this.place, !this.pointer.held);
-    this.nanoseconds += 0.05 * (((performance.now() - began) * 1e6) / ticks - this.nanoseconds);
+    const took = ((performance.now() - began) * 1e6) / ticks;
+    this.nanoseconds = this.nanoseconds ? this.nanoseconds + 0.05 * (took - this.nanoseconds) : took;
     return this.device.errors();
   }
 

@@ -7,6 +7,7 @@ import { Script } from "script";
 import { toggle } from "live";
 import { whenChosen } from "choices";
 import { verify } from "proof";
+import { explain } from "why";
 
 const by = (id) => document.getElementById(id);
 const page = new Page();
@@ -24,7 +25,10 @@ function wire() {
   by("verify").addEventListener("click", verify);
   by("table1").addEventListener("click", () => page.take(shipped("table1")));
   by("leave").addEventListener("click", () => page.leave());
-  by("serial").addEventListener("click", () => toggle(page));
+  for (const button of ["serial", "knob-serial"]) by(button).addEventListener("click", () => toggle(page));
+  explain();
+  for (const [words, address] of given.links ?? [])
+    by("links").append(Object.assign(document.createElement("a"), { textContent: words, href: address, target: "_blank" }));
   addEventListener("resize", () => page.room.resize());
   addEventListener("dragover", (event) => (event.preventDefault(), (by("drop").hidden = false)));
   addEventListener("dragleave", (event) => event.relatedTarget ?? (by("drop").hidden = true));

@@ -10,6 +10,7 @@ import { Player } from "player";
 import { Errors, show } from "panel";
 import { Basin } from "basin";
 import { Modes } from "modes";
+import { Knob } from "knob";
 import { choices, number, pace, say } from "choices";
 import { verify } from "proof";
 
@@ -28,6 +29,7 @@ export class Page {
     this.loop = new Loop(this.room, this.pointer);
     this.player = new Player();
     this.modes = new Modes();
+    this.knob = new Knob(this);
     const ways = ([ours, newton]) => this.panel === "basin" && this.marks.ways(ours.places, newton.places);
     this.basin = new Basin({ changed: ways });
     this.panel = "feel";
@@ -101,8 +103,13 @@ export class Page {
       else element.hidden = element.dataset.tab !== name;
     });
     this.marks.ways();
+    by("stage").classList.toggle("dials", name === "knob");
+    by("dial").hidden = name !== "knob";
+    by("choose").hidden = name === "knob";
+    if (name === "knob") return this.knob.begin();
     if (name === "basin") this.beginBasin();
     if (name === "proof" && by("hash").textContent === "…") verify();
+    return undefined;
   }
 
   beginBasin() {
@@ -130,6 +137,7 @@ export class Page {
 
   /** So many seconds of whatever is shown, and the picture of it. */
   advance(seconds) {
+    if (this.panel === "knob") return this.knob.advance(seconds);
     if (this.live) this.view = this.live.view ?? this.view;
     else if (this.player.recording) {
       this.view = this.player.advance(seconds);
@@ -169,8 +177,8 @@ export class Page {
     if (Math.floor(this.last / TOLD_EVERY) === this.told) return;
     this.told = Math.floor(this.last / TOLD_EVERY);
     by("speed").textContent =
-      `${Math.round(number("rate") * pace())} ticks a second at ${Math.round(this.rate)} frames; ` +
-      `${(this.loop.nanoseconds / 1e3).toFixed(2)} µs a tick here`;
+      `${Math.round(number("rate") * pace())} ticks a second at ${Math.round(this.rate)} frames` +
+      (this.loop.nanoseconds ? `; ${(this.loop.nanoseconds / 1e3).toFixed(2)} µs a tick here` : "");
   }
 }
 

@@ -36,7 +36,12 @@ export class Script {
   }
 
   panel(name) {
-    this.page.turnTo(name);
+    return this.page.turnTo(name);
+  }
+
+  /** The dial's hand at an angle, radians, for so many ticks; what is seen then. */
+  turnKnob(angle, ticks) {
+    return this.page.knob.hold(angle, ticks);
   }
 
   /** Puts the stylus to a place, metres in the frame of the tables, in so many ticks; what is seen there. */

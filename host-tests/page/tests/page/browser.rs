@@ -35,6 +35,29 @@ impl Page {
 
     /// The same of a page that lies elsewhere.
     pub fn open_at(address: &str) -> anyhow::Result<Self> {
+        let page = Self::empty()?;
+        // A quarter of the pixels along each side: a processor draws them, and only a picture is looked at.
+        page.set_size(PICTURE, 0.25)?;
+        page.run(address)?;
+        Ok(page)
+    }
+
+    /// Goes to a page and waits until it runs.
+    pub fn run(&self, address: &str) -> anyhow::Result<()> {
+        self.tab.navigate_to(address)?;
+        // Until the page is there an expression finds nothing, or another page's world.
+        let began = Instant::now();
+        while self.ask("window.palpate?.ready").ok() != Some(Value::Bool(true)) {
+            ensure!(began.elapsed() < PATIENCE, "the page does not run: {:?}", self.errors());
+            thread::sleep(Duration::from_millis(200));
+        }
+        // Only pictures show what is drawn, and drawing takes nearly all the time where a processor does it.
+        self.ask("palpate.draw(false)")?;
+        Ok(())
+    }
+
+    /// A browser with nothing in it.
+    pub fn empty() -> anyhow::Result<Self> {
         let options = LaunchOptions {
             path: Some(tool::given("PALPATE_CHROMIUM")?),
             // As root, which a container's user is, Chromium has no sandbox.
@@ -71,19 +94,7 @@ impl Page {
                 errors.push(error);
             }
         }))?;
-        let page = Self { _browser: browser, tab, errors };
-        // A quarter of the pixels along each side: a processor draws them, and only a picture is looked at.
-        page.set_scale(0.25)?;
-        page.tab.navigate_to(address)?;
-        // Until the page is there an expression finds nothing, or another page's world.
-        let began = Instant::now();
-        while page.ask("window.palpate?.ready").ok() != Some(Value::Bool(true)) {
-            ensure!(began.elapsed() < PATIENCE, "the page does not run: {:?}", page.errors());
-            thread::sleep(Duration::from_millis(200));
-        }
-        // Only pictures show what is drawn, and drawing takes nearly all the time where a processor does it.
-        page.ask("palpate.draw(false)")?;
-        Ok(page)
+        Ok(Self { _browser: browser, tab, errors })
     }
 
     /// The same held still: nothing moves but what a test moves.
@@ -124,19 +135,32 @@ impl Page {
         self.ask(expression)?.as_f64().with_context(|| format!("{expression} is no number"))
     }
 
-    /// A picture of the page, PNG, of a size that no browser's own bars take part of. Frames are drawn from then on.
+    /// A picture of the page, a small file (WebP) of a size that no browser's own bars take part of. Frames are drawn
+    /// from then on.
     pub fn picture(&self) -> anyhow::Result<Vec<u8>> {
-        self.set_scale(1.0)?;
-        self.ask("palpate.draw(true)")?;
-        self.ask("palpate.drawn(3)")?;
-        let picture = self.tab.capture_screenshot(CaptureScreenshotFormatOption::Png, None, None, true)?;
-        self.set_scale(0.25)?;
+        self.sharpen(PICTURE)?;
+        let picture = self.photograph()?;
+        self.set_size(PICTURE, 0.25)?;
         Ok(picture)
     }
 
-    /// Sets the device pixel ratio; the layout of the page stays the same.
-    fn set_scale(&self, device_scale_factor: f64) -> anyhow::Result<()> {
-        let [width, height] = PICTURE;
+    /// Draws at every pixel of a window of this size.
+    pub fn sharpen(&self, size: [u32; 2]) -> anyhow::Result<()> {
+        self.set_size(size, 1.0)?;
+        self.ask("palpate.draw(true)")?;
+        // Only the window itself tells a page that its pixels are others, and that later.
+        self.ask("void dispatchEvent(new Event('resize'))")?;
+        self.ask("palpate.drawn(3)")?;
+        Ok(())
+    }
+
+    /// What the window shows, as a small file (WebP).
+    pub fn photograph(&self) -> anyhow::Result<Vec<u8>> {
+        self.tab.capture_screenshot(CaptureScreenshotFormatOption::Webp, Some(85), None, true)
+    }
+
+    /// Sets width and height of the window, and the pixels along one of its lengths.
+    pub fn set_size(&self, [width, height]: [u32; 2], device_scale_factor: f64) -> anyhow::Result<()> {
         self.tab.call_method(Emulation::SetDeviceMetricsOverride {
             width,
             height,
@@ -153,6 +177,13 @@ impl Page {
             display_feature: None,
             device_posture: None,
         })?;
+        Ok(())
+    }
+
+    /// Has the reader prefer light or dark pages.
+    pub fn prefer(&self, scheme: &str) -> anyhow::Result<()> {
+        let features = vec![Emulation::MediaFeature { name: "prefers-color-scheme".into(), value: scheme.into() }];
+        self.tab.call_method(Emulation::SetEmulatedMedia { media: None, features: Some(features) })?;
         Ok(())
     }
 

@@ -32,7 +32,7 @@ fn a_reader_sees_a_body_and_a_basin() -> anyhow::Result<()> {
         let filled = page.number(FILLED)?;
         ensure!((0.05..0.9).contains(&filled), "{name}: {filled} of the picture is filled");
         if std::env::var_os("PALPATE_WRITE").is_some() {
-            fs::write(repository(&format!("docs/figures/{name}.png")), &picture)?;
+            fs::write(repository(&format!("docs/figures/{name}.webp")), &picture)?;
         }
     }
     let state = page.ask("palpate.state()")?;

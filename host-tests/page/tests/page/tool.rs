@@ -34,14 +34,23 @@ pub fn given(variable: &str) -> anyhow::Result<PathBuf> {
 
 /// Runs the tool; what it prints, errors after the rest.
 pub fn said(arguments: &[&str]) -> anyhow::Result<(Option<i32>, String)> {
-    let run = Command::new(given("PALPATE_TOOL")?).args(arguments).current_dir(repository("")).output()?;
+    said_in(&repository(""), arguments)
+}
+
+fn said_in(folder: &Path, arguments: &[&str]) -> anyhow::Result<(Option<i32>, String)> {
+    let run = Command::new(given("PALPATE_TOOL")?).args(arguments).current_dir(folder).output()?;
     let text = [run.stdout, run.stderr].concat();
     Ok((run.status.code(), String::from_utf8(text)?))
 }
 
 /// The same, of a run that must succeed.
 pub fn palpate(arguments: &[&str]) -> anyhow::Result<String> {
-    let (code, text) = said(arguments)?;
+    palpate_in(&repository(""), arguments)
+}
+
+/// The same from a folder.
+pub fn palpate_in(folder: &Path, arguments: &[&str]) -> anyhow::Result<String> {
+    let (code, text) = said_in(folder, arguments)?;
     ensure!(code.is_some_and(|code| code < 2), "palpate {}: {text}", arguments.join(" "));
     Ok(text)
 }

@@ -28,6 +28,9 @@ pub struct Arguments {
     /// Folder for the page, index.html
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
+    /// Address of the documentation that the page links to
+    #[arg(long, value_name = "URL", value_parser = address)]
+    docs: Option<String>,
 }
 
 /// Serves the page with a model on the loopback.
@@ -54,7 +57,9 @@ pub struct ViewArguments {
 /// # Errors
 /// The cause, for the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
-    let text = written(Given { first: FIRST.to_owned(), bodies: shipped()?, script: script(), recording: None })?;
+    let links = arguments.docs.iter().map(|docs| ("Documentation".to_owned(), docs.clone())).collect();
+    let text =
+        written(Given { first: FIRST.to_owned(), bodies: shipped()?, script: script(), links, recording: None })?;
     let out = &arguments.out;
     fs::create_dir_all(out).with_context(|| format!("{}: the folder cannot be made", out.display()))?;
     let path = out.join("index.html");
@@ -79,12 +84,18 @@ pub fn view(arguments: &ViewArguments) -> anyhow::Result<ExitCode> {
     }
     let recording = arguments.recording.as_deref().map(read).transpose()?;
     bodies.extend(shipped()?.into_iter().filter(|body| body.name != first));
-    let text = written(Given { first, bodies, script: script(), recording })?;
+    let text = written(Given { first, bodies, script: script(), links: Vec::new(), recording })?;
     page::serve(&text, arguments.port, |address| {
         // Whoever reads it may have gone.
         let _ = print(format!("{address}\n").as_bytes());
     })?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// An address that a browser opens.
+fn address(text: &str) -> Result<String, &'static str> {
+    let opens = ["https://", "http://", "./", "../"].iter().any(|start| text.starts_with(start));
+    opens.then(|| text.to_owned()).ok_or("an address starts with https://, http://, ./ or ../")
 }
 
 /// Writes a page that shows a recording, with its own bodies alone; `false` where the page's code has not been built
@@ -97,7 +108,7 @@ pub(super) fn write_replay(recording: &Recording, path: &Path) -> anyhow::Result
     let bodies: Vec<Shown> =
         recording.bodies.iter().map(|body| Shown::encoded(&body.name, body.file.clone())).collect();
     let first = bodies.first().map(|body| body.name.clone()).unwrap_or_default();
-    let given = Given { first, bodies, script: script(), recording: Some(recording.clone()) };
+    let given = Given { first, bodies, script: script(), links: Vec::new(), recording: Some(recording.clone()) };
     write_whole(path, page::bundle(&given, &firmware)?.as_bytes())?;
     Ok(true)
 }

@@ -23,6 +23,8 @@ pub struct Given {
     /// State hash after the million ticks of `palpate_bench::exercise` on the host; every tested board must reach the
     /// same.
     pub script: String,
+    /// Words and address of each link.
+    pub links: Vec<(String, String)>,
     /// A run to show at once.
     pub recording: Option<Recording>,
 }

@@ -1,4 +1,4 @@
-//! Axes with ticks and names, and what is drawn between them.
+//! Axes with ticks and names, and the marks between them.
 //!
 //! From top to bottom: title, names of the curves, name of the upward axis, the chart, its ticks, name of the other
 //! axis. Nothing but marks stands in the chart, so nothing can cover a curve.
@@ -40,7 +40,7 @@ impl<'a> Axis<'a> {
         Self { label, range: [-0.6, names.len() as f64 - 0.4], scale: Scale::Named(names) }
     }
 
-    /// The linear one over all of these numbers, with a little room.
+    /// The linear one over all of these numbers, with a little margin.
     pub fn over(label: &'a str, values: impl IntoIterator<Item = f64>) -> Self {
         let (low, high) = values.into_iter().fold((f64::MAX, f64::MIN), |(low, high), v| (low.min(v), high.max(v)));
         let room = (0.04 * (high - low)).max(1e-9);
@@ -231,7 +231,7 @@ impl Axes<'_> {
 }
 
 impl<'s> Chart<'s> {
-    /// A view of things in space without axes, in which all of these points have room.
+    /// A view of things in space without axes, that holds all of these points.
     pub fn scene(
         svg: &'s mut Svg,
         area: Area,

@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 pub enum Ink {
     /// The paper itself, over something else.
     Paper,
-    /// Words and what is as black.
+    /// Words.
     Text,
     /// Grids, nets, what stands behind.
     Grey,
@@ -22,7 +22,7 @@ pub enum Ink {
     Edge(u16),
     /// Fills of vertices, in turn.
     Vertex(u16),
-    /// What does not converge.
+    /// Starts that do not converge.
     Dark,
 }
 

@@ -1,0 +1,131 @@
+//! Reports, figures and the page as a reader has them, on a phone and on wide screens, light and dark: no words over
+//! each other, cut, too small or too pale.
+
+use crate::browser::Page;
+use crate::tool::{address, palpate_in, repository};
+use anyhow::{Context as _, ensure};
+use std::fs;
+
+/// Finds the faults of a page as it stands.
+const FAULTS: &str = include_str!("looks.js");
+/// A phone, a laptop, a desk.
+const WIDTHS: [u32; 3] = [390, 1280, 1920];
+/// Of the page, where its panel leaves the least to its scene, too.
+const NARROW: [u32; 2] = [1100, 1366];
+const HEIGHT: u32 = 800;
+const SCHEMES: [&str; 2] = ["light", "dark"];
+
+fn faults(page: &Page, of: &str) -> anyhow::Result<Vec<String>> {
+    let found = page.ask(FAULTS)?;
+    let found = found.as_array().with_context(|| format!("{of}: {found}"))?;
+    Ok(found.iter().map(|fault| format!("{of}: {}", fault.as_str().unwrap_or_default())).collect())
+}
+
+/// A page that has every fault.
+const BAD: &str = "data:text/html,<body style='margin:0'><p style='position:absolute'>over<p style='position:absolute'>\
+    under</p><div style='position:absolute;top:90px;left:370px'>beside</div><div style='position:absolute;top:140px;width:\
+    40px;overflow:hidden;white-space:nowrap'>cut off here</div><p style='position:absolute;top:190px;font-size:6px'>small\
+    <p style='position:absolute;top:240px;color:%23eee'>pale</p><svg style='position:absolute;top:300px' width=50 height=50>\
+    <text x=40 y=20>out of it</text></svg>";
+
+#[test]
+fn no_words_are_covered_cut_small_or_pale() -> anyhow::Result<()> {
+    let page = Page::empty()?;
+    page.set_size([390, HEIGHT], 1.0)?;
+    page.tab.navigate_to(BAD)?.wait_until_navigated()?;
+    let seen = faults(&page, "the bad page")?.join("; ");
+    for fault in ["over each other", "the page's side", "cut by DIV", "px high", "a contrast of", "cut by its plot"] {
+        ensure!(seen.contains(fault), "{fault:?} is not found: {seen}");
+    }
+    let folder = tempfile::tempdir()?;
+    let path = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    palpate_in(folder.path(), &["demo", "--host", "--report", "demo.html"])?;
+    palpate_in(folder.path(), &["demo", "--device", "knob", "--host", "--report", "knob.html"])?;
+    palpate_in(folder.path(), &["feel", "--device", "phantom-premium", "--out", "feel"])?;
+    let mut all = Vec::new();
+    for report in ["demo.html", "knob.html", "feel/report.html"] {
+        page.tab.navigate_to(&format!("file://{}", path(report)))?.wait_until_navigated()?;
+        for width in WIDTHS {
+            page.set_size([width, HEIGHT], 1.0)?;
+            for scheme in SCHEMES {
+                page.prefer(scheme)?;
+                all.extend(faults(&page, &format!("{report}, {width} px, {scheme}"))?);
+                photograph(&page, report, width, scheme)?;
+            }
+        }
+    }
+    page.set_size([1000, HEIGHT], 1.0)?;
+    let mut figures = 0;
+    for entry in fs::read_dir(repository("docs/figures"))? {
+        let file = entry?.path();
+        if file.extension().is_none_or(|extension| extension != "svg") {
+            continue;
+        }
+        figures += 1;
+        page.tab.navigate_to(&format!("file://{}", file.display()))?.wait_until_navigated()?;
+        let name = file.file_name().unwrap_or_default().to_string_lossy();
+        for scheme in SCHEMES {
+            page.prefer(scheme)?;
+            all.extend(faults(&page, &format!("{name}, {scheme}"))?);
+        }
+    }
+    ensure!(figures > 20, "{figures} figures");
+    page.run(&address())?;
+    for width in WIDTHS.into_iter().chain(NARROW) {
+        // Small: a processor draws each frame.
+        page.set_size([width, HEIGHT], 0.25)?;
+        for panel in ["feel", "basin", "proof", "knob"] {
+            page.ask(&format!("palpate.panel('{panel}')"))?;
+            page.ask("palpate.drawn(2)")?;
+            all.extend(faults(&page, &format!("page, {panel}, {width} px"))?);
+        }
+        // With a refusal, and an explanation.
+        page.ask("palpate.panel('feel')")?;
+        page.ask("palpate.open('no.palp', 'AAAA')")?;
+        all.extend(faults(&page, &format!("page with a refusal, {width} px"))?);
+        for word in ["boundary mode", "gain", "evaluations a tick"] {
+            let why = format!("[...document.querySelectorAll('dt')].find((dt) => dt.textContent === '{word}')");
+            page.ask(&format!("{why}.dispatchEvent(new PointerEvent('pointerenter'))"))?;
+            let bubble = "(({ hidden, textContent }) => !hidden && textContent.length)(document.getElementById('why'))";
+            ensure!(page.number(bubble)? > 40.0, "{word} is not explained");
+            let inside = "(({ left, right, bottom }) => left >= 0 && right <= innerWidth && bottom <= innerHeight)\
+                          (document.getElementById('why').getBoundingClientRect())";
+            ensure!(page.ask(inside)? == true, "the explanation of {word} is cut at {width} px");
+        }
+        page.ask("document.getElementById('why').hidden = true")?;
+        page.ask("palpate.take('capped_box')")?;
+        photograph_page(&page, width)?;
+    }
+    ensure!(all.is_empty(), "{} faults:\n{}", all.len(), all.join("\n"));
+    Ok(())
+}
+
+/// The page's pictures in the documentation: which panel, how wide.
+fn photograph_page(page: &Page, width: u32) -> anyhow::Result<()> {
+    let wanted = [(390, "feel", "page-phone"), (1280, "knob", "page-knob")];
+    let wanted = wanted.into_iter().find(|(at, ..)| *at == width);
+    if let (Some((_, panel, name)), Some(_)) = (wanted, std::env::var_os("PALPATE_WRITE")) {
+        page.ask(&format!("palpate.panel('{panel}')"))?;
+        page.ask(if panel == "knob" { "palpate.turnKnob(0.5, 4000)" } else { "palpate.show(18.4)" })?;
+        page.sharpen([width, HEIGHT])?;
+        page.ask("palpate.drawn(30)")?;
+        fs::write(repository(&format!("docs/figures/{name}.webp")), page.photograph()?)?;
+        page.ask("palpate.draw(false)")?;
+    }
+    Ok(())
+}
+
+/// The reports' pictures in the documentation: which, how wide, light or dark.
+const PICTURES: [(&str, u32, &str, &str); 3] = [
+    ("demo.html", 1280, "light", "report-demo"),
+    ("knob.html", 390, "light", "report-knob"),
+    ("feel/report.html", 1280, "dark", "report-feel"),
+];
+
+fn photograph(page: &Page, report: &str, width: u32, scheme: &str) -> anyhow::Result<()> {
+    let wanted = PICTURES.iter().find(|(of, at, prefers, _)| (*of, *at, *prefers) == (report, width, scheme));
+    if let (Some((.., name)), Some(_)) = (wanted, std::env::var_os("PALPATE_WRITE")) {
+        fs::write(repository(&format!("docs/figures/{name}.webp")), page.photograph()?)?;
+    }
+    Ok(())
+}

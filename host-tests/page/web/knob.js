@@ -1,0 +1,266 @@
+// The knob: sliders for its feel, the simulated dial that a reader turns, and the same parts for a device on the line.
+
+import { Device } from "firmware";
+import { pace } from "choices";
+
+const by = (id) => document.getElementById(id);
+const DEGREE = Math.PI / 180,
+  MILLI = 1e-3;
+/** Ticks a second of the knob's loop. */
+const RATE = 4000;
+/** Seconds without a hand after which the dial is turned there and back, and that turn's time and angle. */
+const IDLE = 12,
+  SWING = 14,
+  FAR = 70 * DEGREE;
+/** Places at which a turn's torque is drawn. */
+const PLACES = 720;
+/** The sliders of the panel. */
+const SLIDERS = ["pitch", "strength", "count", "stops", "hardness", "spring", "damping", "rub", "texture", "click", "click-at"];
+
+const value = (id) => Number(by(`knob-${id}`).value);
+
+/** What the sliders say of each part: its number in src/knob.rs, and its numbers, in radians and N·m. */
+const PARTS = {
+  detents: () => [0, value("pitch") * DEGREE, smooth() ? value("strength") * MILLI : 0, 0, 0],
+  clicks: () => {
+    const count = value("count"),
+      first = -Math.floor((count - 1) / 2);
+    return [1, value("pitch") * DEGREE, smooth() ? 0 : value("strength") * MILLI, first, first + count - 1];
+  },
+  texture: () => [2, 5 * DEGREE, value("texture") * MILLI, 0, 0],
+  spring: () => [3, value("spring") * MILLI, 0, 0.04, 0],
+  // The last place of the slider is none.
+  stops: () => {
+    const stops = value("stops") * DEGREE;
+    return [4, -stops, stops, isEndless() ? 0 : value("hardness"), 1.5e-3];
+  },
+  damping: () => [5, value("damping") * MILLI, 0, 0, 0],
+  friction: () => [6, value("rub") * MILLI, 2, 0, 0],
+  notch: () => [7, value("click-at") * DEGREE, 10 * DEGREE, value("click") * MILLI, 0],
+};
+/** Which parts a slider changes. */
+const CHANGES = {
+  shape: ["detents", "clicks"],
+  pitch: ["detents", "clicks"],
+  strength: ["detents", "clicks"],
+  count: ["clicks"],
+  stops: ["stops"],
+  hardness: ["stops"],
+  spring: ["spring"],
+  damping: ["damping"],
+  rub: ["friction"],
+  texture: ["texture"],
+  click: ["notch"],
+  "click-at": ["notch"],
+};
+
+const smooth = () => by("knob-shape").value === "smooth";
+const isEndless = () => value("stops") === Number(by("knob-stops").max);
+
+export class Knob {
+  constructor(page) {
+    this.page = page;
+    this.canvas = by("dial");
+    Object.assign(this, { hand: 0, grip: null, idle: IDLE, clock: 0, owed: 0, view: null, curve: null });
+    for (const slider of [...SLIDERS, "shape"])
+      by(`knob-${slider}`).addEventListener("input", () => this.set(CHANGES[slider]));
+    const { canvas } = this;
+    canvas.addEventListener("pointerdown", (event) => {
+      canvas.setPointerCapture(event.pointerId);
+      this.grip = this.angleOf(event);
+      if (!this.holds()) this.hand = this.view?.angle ?? 0;
+      this.idle = 0;
+    });
+    canvas.addEventListener("pointermove", (event) => this.turn(event));
+    for (const name of ["pointerup", "pointercancel"]) canvas.addEventListener(name, () => (this.grip = null));
+    canvas.addEventListener("wheel", (event) => (event.preventDefault(), this.by(-Math.sign(event.deltaY) * 3 * DEGREE)), {
+      passive: false,
+    });
+    canvas.addEventListener("keydown", (event) => {
+      const way = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 }[event.key];
+      if (way) this.by(way * 3 * DEGREE);
+    });
+  }
+
+  /** Begins, the first time. */
+  async begin() {
+    if (this.device) return;
+    this.device = await Device.bare();
+    this.view = this.device.turnKnob(1, 0, true);
+    this.set(Object.keys(PARTS));
+  }
+
+  /** Sets parts as the sliders say, and those of a device if the reader wants that. */
+  set(parts) {
+    this.say();
+    const refusals = [];
+    for (const part of parts) {
+      const numbers = PARTS[part]();
+      try {
+        this.device?.setKnob(numbers);
+      } catch (error) {
+        refusals.push(`${part}: ${error.message}`);
+      }
+      if (by("knob-live").checked) this.page.live?.orders.set(part, numbers);
+    }
+    this.refuse(refusals.length ? `${refusals.join("; ")}: weaken it or another part` : "");
+    this.curve = null;
+  }
+
+  refuse(message) {
+    by("knob-refusal").hidden = !message;
+    by("knob-refusal").textContent = message;
+  }
+
+  say() {
+    const unit = { pitch: "°", strength: " mN·m", count: "", stops: "°", hardness: " N·m/rad", spring: " mN·m/rad" };
+    const others = { damping: " mN·m·s", rub: " mN·m", texture: " mN·m", click: " mN·m", "click-at": "°" };
+    for (const [slider, words] of Object.entries({ ...unit, ...others })) {
+      const text = slider === "stops" && isEndless() ? "none" : `${value(slider)}${words}`.replace("-", "−");
+      by(`knob-${slider}`).nextElementSibling.textContent = text;
+    }
+    by("knob-count").disabled = smooth();
+    by("knob-hardness").disabled = isEndless();
+  }
+
+  angleOf({ clientX, clientY }) {
+    const { left, top, width } = this.canvas.getBoundingClientRect(),
+      { x, y } = this.middle();
+    return Math.atan2(clientX - left - (x * width) / this.canvas.width, -(clientY - top - (y * width) / this.canvas.width));
+  }
+
+  turn(event) {
+    if (this.grip === null) return;
+    const angle = this.angleOf(event),
+      step = angle - this.grip;
+    this.grip = angle;
+    this.by(step - 2 * Math.PI * Math.round(step / (2 * Math.PI)));
+  }
+
+  by(angle) {
+    this.hand += angle;
+    this.idle = 0;
+  }
+
+  holds() {
+    return this.grip !== null || this.idle < 1 || this.idle >= IDLE;
+  }
+
+  /** So many seconds of the loop, and the picture. */
+  advance(seconds) {
+    if (!this.device) return;
+    if (!this.page.loop.paused) {
+      this.idle += seconds;
+      this.owed += seconds * pace() * RATE;
+      const ticks = Math.floor(this.owed);
+      this.owed -= ticks;
+      if (this.idle >= IDLE) {
+        this.clock += seconds * pace();
+        const aim = FAR * Math.sin((2 * Math.PI * this.clock) / SWING);
+        this.hand += (aim - this.hand) * (1 - Math.exp(-seconds * 4));
+      }
+      if (ticks > 0) this.view = this.device.turnKnob(ticks, this.hand, this.holds());
+    }
+    this.show();
+  }
+
+  /** Holds the dial's hand at an angle, radians, for so many ticks; what is seen then. */
+  hold(angle, ticks) {
+    this.hand = angle;
+    this.idle = 0;
+    this.view = this.device.turnKnob(ticks, angle, true);
+    this.show();
+    return this.view;
+  }
+
+  show() {
+    const heard = by("knob-live").checked && this.page.live?.dial;
+    const { angle, rate, torque, detent, end } = heard || this.view;
+    const signed = (number, digits) => number.toFixed(digits).replace(/^-(?=0\.?0*$)/, "").replace("-", "−");
+    by("knob-angle").textContent = `${signed(angle / DEGREE, 1)}°`;
+    by("knob-rate").textContent = `${signed(rate, 2)} rad/s`;
+    by("knob-torque").textContent = `${signed(torque / MILLI, 1)} mN·m`;
+    by("knob-detent").textContent =
+      signed(detent, 0) + (end ? (end > 0 ? ", beyond the upper stop" : ", beyond the lower stop") : "");
+    this.draw(angle, torque, heard ? null : this.hand);
+  }
+
+  /** Where the dial is drawn, and how large, in pixels of the canvas. */
+  middle() {
+    const { width, height } = this.canvas;
+    return { x: width / 2, y: height * 0.36, radius: Math.min(width * 0.3, height * 0.21) };
+  }
+
+  draw(angle, torque, hand) {
+    const { canvas } = this,
+      scale = Math.min(devicePixelRatio, 2),
+      context = canvas.getContext("2d");
+    const [width, height] = [canvas.clientWidth * scale, canvas.clientHeight * scale].map(Math.round);
+    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+    context.clearRect(0, 0, width, height);
+    this.drawDial(context, angle, hand, scale);
+    this.drawCurve(context, angle, torque, scale);
+  }
+
+  drawDial(context, angle, hand, scale) {
+    const { x, y, radius } = this.middle();
+    const at = (turn, far) => [x + Math.sin(turn) * radius * far, y - Math.cos(turn) * radius * far];
+    const line = (turn, from, to, colour, thick) => {
+      context.strokeStyle = colour;
+      context.lineWidth = thick * scale;
+      context.beginPath();
+      context.moveTo(...at(turn, from));
+      context.lineTo(...at(turn, to));
+      context.stroke();
+    };
+    const pitch = value("pitch") * DEGREE,
+      count = smooth() ? Math.floor((2 * Math.PI) / pitch) : value("count"),
+      first = smooth() ? 0 : -Math.floor((count - 1) / 2);
+    for (let detent = first; value("strength") && detent < first + count; detent += 1)
+      line(detent * pitch, 1.08, 1.16, "#93a0b8", 2);
+    if (!isEndless()) for (const side of [-1, 1]) line(side * value("stops") * DEGREE, 1.05, 1.25, "#ff9b42", 4);
+    context.fillStyle = "#26314a";
+    context.strokeStyle = "#4a5a7d";
+    context.lineWidth = 2 * scale;
+    context.beginPath();
+    context.arc(x, y, radius, 0, 7);
+    context.fill();
+    context.stroke();
+    line(angle, 0.35, 0.95, "#3fe0d0", 6);
+    if (hand === null || !this.holds()) return;
+    context.fillStyle = "#e8ebf2";
+    context.beginPath();
+    context.arc(...at(hand, 0.82), 7 * scale, 0, 7);
+    context.fill();
+  }
+
+  /** The torque of a turn around the dial's place, which rises to the left of a detent. */
+  drawCurve(context, angle, torque, scale) {
+    this.curve ??= this.device.knobCurve(0, PLACES);
+    const { width, height } = context.canvas;
+    const [left, right, top, bottom] = [0.08 * width, 0.92 * width, 0.66 * height, 0.84 * height];
+    const most = Math.max(0.01, Math.min(0.056, this.curve.reduce((a, b) => Math.max(a, Math.abs(b)), 0)));
+    const across = (turn) => left + (right - left) * (turn / (2 * Math.PI) + 0.5),
+      up = (value) => (top + bottom) / 2 - ((bottom - top) / 2) * Math.min(Math.max(value / most, -1), 1);
+    context.strokeStyle = "#2c3750";
+    context.lineWidth = scale;
+    context.strokeRect(left, top, right - left, bottom - top);
+    context.beginPath();
+    context.moveTo(left, up(0));
+    context.lineTo(right, up(0));
+    context.stroke();
+    context.strokeStyle = "#ff9b42";
+    context.lineWidth = 2 * scale;
+    context.beginPath();
+    this.curve.forEach((value, place) => context.lineTo(across(((place / PLACES) * 2 - 1) * Math.PI), up(value)));
+    context.stroke();
+    const within = angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
+    context.fillStyle = "#3fe0d0";
+    context.beginPath();
+    context.arc(across(within), up(torque), 6 * scale, 0, 7);
+    context.fill();
+    context.fillStyle = "#b9c3d6";
+    context.font = `${12 * scale}px system-ui, sans-serif`;
+    context.fillText(`torque over a turn, ±${(most / MILLI).toFixed(0)} mN·m`, left, top - 6 * scale);
+  }
+}

@@ -1,0 +1,28 @@
+// Short explanations of words: on hover, on focus, and on a tap.
+
+const bubble = document.getElementById("why");
+
+function show(word) {
+  bubble.textContent = word.dataset.why;
+  bubble.hidden = false;
+  const { left, bottom, top } = word.getBoundingClientRect(),
+    { offsetWidth: width, offsetHeight: height } = bubble;
+  bubble.style.left = `${Math.max(8, Math.min(left, innerWidth - width - 8))}px`;
+  bubble.style.top = `${bottom + height + 8 > innerHeight ? top - height - 6 : bottom + 6}px`;
+}
+
+const hide = () => (bubble.hidden = true);
+
+/** Begins. */
+export function explain() {
+  for (const word of document.querySelectorAll("[data-why]")) {
+    word.tabIndex = 0;
+    word.setAttribute("aria-describedby", "why");
+    word.addEventListener("pointerenter", () => show(word));
+    word.addEventListener("focus", () => show(word));
+    // A finger that has tapped is gone at once; the word keeps the focus until the next tap.
+    word.addEventListener("pointerleave", ({ pointerType }) => pointerType === "mouse" && hide());
+    word.addEventListener("blur", hide);
+  }
+  addEventListener("keydown", ({ key }) => key === "Escape" && hide());
+}
