@@ -28,9 +28,9 @@ impl Slice {
     /// A device at the middle of its workspace: along z, the vertical (the Falcon's axis); of two joints along y, away
     /// from the pivots; of one along x.
     ///
-    /// Mass, friction and encoders are the simulated device's for a push that nothing guides sideways, which is the
-    /// lightest the probe can be. The resolution is that of all joints together. On a bridge, back-EMF brakes as far as
-    /// the preset does not make up for it. Limits are the preset's.
+    /// Mass, friction and encoders are the simulated device's for a push that nothing guides sideways. Other
+    /// directions may hold less: [`Self::weakest`]. The resolution is that of all joints together. On a bridge, back-EMF
+    /// brakes as far as the preset does not make up for it. Limits are the preset's.
     ///
     /// # Panics
     /// If the device cannot be at the middle of its own workspace.
