@@ -12,24 +12,33 @@ const SUFFICIENT: f64 = 1e-4;
 /// Halvings after which a step no longer moves a double.
 const HALVINGS: usize = 50;
 
+/// The direction of a step from the difference, the gradient and which parameters are held.
+type Direction = fn(&OraclePoint, DVec3, [f64; 2], [bool; 2]) -> [f64; 2];
+
 /// One step: the Hessian where it is positive definite, the first fundamental form where not; parameters that press
 /// outward are held; halved until the distance falls enough. `None` at a stationary point.
-fn step(patch: &NurbsPatch, surface: &OraclePoint, at: [f64; 2], probe: DVec3) -> Option<[f64; 2]> {
+fn step(
+    patch: &NurbsPatch,
+    surface: &OraclePoint,
+    at: [f64; 2],
+    probe: DVec3,
+    direction: Direction,
+) -> Option<[f64; 2]> {
     let difference = surface.point - probe;
     let gradient = [difference.dot(surface.tangent_u), difference.dot(surface.tangent_v)];
     let is_outward = |i: usize, change: f64| (at[i] <= 0.0 && change < 0.0) || (at[i] >= 1.0 && change > 0.0);
     let mut held = [0, 1].map(|i| is_outward(i, -gradient[i]));
-    let mut direction = direction(surface, difference, gradient, held);
+    let mut along = direction(surface, difference, gradient, held);
     // The mixed term can turn a parameter that was free outward: then it is held as well.
-    if let Some(i) = (0..2).find(|&i| is_outward(i, direction[i])) {
+    if let Some(i) = (0..2).find(|&i| is_outward(i, along[i])) {
         held[i] = true;
-        direction = self::direction(surface, difference, gradient, held);
+        along = direction(surface, difference, gradient, held);
     }
-    let slope = gradient[0] * direction[0] + gradient[1] * direction[1];
+    let slope = gradient[0] * along[0] + gradient[1] * along[1];
     let value = 0.5 * difference.length_squared();
     let mut length = 1.0;
     for _ in 0..HALVINGS {
-        let next = [0, 1].map(|i| (at[i] + length * direction[i]).clamp(0.0, 1.0));
+        let next = [0, 1].map(|i| (at[i] + length * along[i]).clamp(0.0, 1.0));
         let there = 0.5 * OraclePoint::evaluate(patch, next[0], next[1]).point.distance_squared(probe);
         if next != at && there <= value + SUFFICIENT * length * slope {
             return Some(next);
@@ -37,6 +46,12 @@ fn step(patch: &NurbsPatch, surface: &OraclePoint, at: [f64; 2], probe: DVec3) -
         length *= 0.5;
     }
     None
+}
+
+/// Down the gradient, over the trace of the first fundamental form: the full step is no longer than Gauss and Newton's.
+fn downhill(surface: &OraclePoint, _: DVec3, gradient: [f64; 2], held: [bool; 2]) -> [f64; 2] {
+    let trace = surface.tangent_u.length_squared() + surface.tangent_v.length_squared();
+    [0, 1].map(|i| if held[i] { 0.0 } else { -gradient[i] / trace })
 }
 
 fn direction(surface: &OraclePoint, difference: DVec3, gradient: [f64; 2], held: [bool; 2]) -> [f64; 2] {
@@ -70,6 +85,8 @@ pub enum Method {
     SaturatedNewton,
     /// Not in the paper: Newton's method for the minimum of `½ ‖ΔR‖²` over the square, as in textbooks.
     ProjectedNewton,
+    /// Not in the paper: the projected gradient of the same, halved in the same way.
+    ProjectedGradient,
 }
 
 /// Which errors Newton's method drives to zero. The paper's text leaves it open: its Eq. (4) defines measure numbers,
@@ -89,10 +106,10 @@ pub struct Baseline<'a> {
     pub patch: &'a NurbsPatch,
     /// The method.
     pub method: Method,
-    /// The errors; [`Method::ProjectedNewton`] knows only the covariant ones.
+    /// The errors; the projected methods know only the covariant ones.
     pub errors: Errors,
     /// `K h`: with 1, an Euler step of the controller is a step of Newton's iteration. Not used by
-    /// [`Method::ProjectedNewton`], which searches along its step.
+    /// the projected methods, which search along their step.
     pub gain: f64,
 }
 
@@ -116,8 +133,13 @@ impl<'a> Baseline<'a> {
     /// One step from `at`, in the square, for a probe at rest.
     pub fn step(&self, at: [f64; 2], probe: DVec3) -> Advance {
         let surface = OraclePoint::evaluate(self.patch, at[0], at[1]);
-        if self.method == Method::ProjectedNewton {
-            return step(self.patch, &surface, at, probe).map_or(Advance::Nowhere, Advance::To);
+        let along: Option<Direction> = match self.method {
+            Method::ProjectedNewton => Some(direction),
+            Method::ProjectedGradient => Some(downhill),
+            _ => None,
+        };
+        if let Some(along) = along {
+            return step(self.patch, &surface, at, probe, along).map_or(Advance::Nowhere, Advance::To);
         }
         let kinematics = match self.errors {
             Errors::MeasureNumbers => ErrorKinematics::measure_numbers(&surface, probe),
@@ -271,6 +293,25 @@ mod tests {
         assert!(matches!(step(Method::Newton), Advance::Out([u, _]) if u > 1.0));
         assert!(matches!(step(Method::SaturatedNewton), Advance::To([1.0, _])));
         assert!(matches!(step(Method::ProjectedNewton), Advance::To([u, _]) if u <= 1.0));
+        assert!(matches!(step(Method::ProjectedGradient), Advance::To([u, _]) if u <= 1.0));
+    }
+
+    #[test]
+    fn the_projected_gradient_ends_where_newton_does() {
+        let patch = dome();
+        // Over the middle, and beyond a border.
+        for probe in [DVec3::new(0.55, 0.45, 0.8), DVec3::new(0.4, 1.6, 0.3)] {
+            let [gradient, newton] = [Method::ProjectedGradient, Method::ProjectedNewton].map(|method| {
+                let (baseline, mut at) = (Baseline::new(&patch, method, Errors::Covariant), [0.2, 0.7]);
+                for _ in 0..2_000 {
+                    let Advance::To(next) = baseline.step(at, probe) else { break };
+                    at = next;
+                }
+                at
+            });
+            // The fall of V is lost in rounding at the root of a double's digits.
+            assert!((0..2).all(|i| (gradient[i] - newton[i]).abs() < 1e-7), "{gradient:?} {newton:?}");
+        }
     }
 }
 
