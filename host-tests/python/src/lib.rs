@@ -15,6 +15,7 @@ mod modes;
 mod pair;
 mod patches;
 mod refusal;
+mod rig;
 mod settle;
 mod simulate;
 mod simulated;
@@ -30,6 +31,9 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<tracker::Tracker>()?;
     module.add_class::<pair::Pair>()?;
     module.add_class::<link::Link>()?;
+    module.add_class::<rig::Device>()?;
+    module.add_class::<rig::Loop>()?;
+    module.add_class::<rig::Plant>()?;
     module.add_function(wrap_pyfunction!(simulated::simulate, module)?)?;
     module.add_function(wrap_pyfunction!(devices::devices, module)?)?;
     Ok(())

@@ -7,9 +7,10 @@ use crate::model::{of_baked, of_file};
 use crate::modes::Modes;
 use crate::pair::Pair;
 use crate::refusal::Refusal;
-use crate::settle::settle;
-use crate::tracker::{Tracker, law};
+use crate::settle::{Law, settle, settle_baseline};
+use crate::tracker::Tracker;
 use crate::{evaluate, patches};
+use glam::DVec3;
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple};
@@ -157,8 +158,14 @@ impl Body {
     ) -> PyResult<(Table<'py, f32>, Line<'py, u32>)> {
         let starts = rows::<2>("starts", &starts)?;
         usable("probe", &[probe])?;
-        let (controller, patch, probe) = (law(law_name)?, &self.face(face)?.patch, self.local(probe));
-        let (ends, steps) = py.detach(|| settle(patch, &controller, probe, &starts, most));
+        let (law, patch, place) = (Law::named(law_name)?, &self.face(face)?.patch, self.local(probe));
+        let (ends, steps) = py.detach(|| match law {
+            Law::Controller(controller) => settle(patch, &controller, place, &starts, most),
+            Law::Baseline(method) => {
+                let surface = &self.baked.faces[face].surface;
+                settle_baseline(surface, method, DVec3::from_array(probe) - self.middle(), &starts, most)
+            }
+        });
         Ok((table(py, ends), line(py, steps)))
     }
 

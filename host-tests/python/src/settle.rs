@@ -1,8 +1,13 @@
 //! A controller on one patch, from many starts: what Figure 7 asks.
 
+use crate::refusal::Refusal;
+use crate::tracker::law;
+use glam::DVec3;
 use palpate::math::Vec3;
 use palpate::patch::SplinePatch;
 use palpate::track::{Controller, Outcome, Probe, Witness};
+use palpate_bake::NurbsPatch;
+use palpate_truth::baselines::{Advance, Baseline, Errors, Method};
 
 /// Steps in a row without progress after which a witness point rests.
 const RESTS: u32 = 8;
@@ -27,6 +32,59 @@ pub fn settle(
             still = if step.outcome == Outcome::AtRest || before == at.parameters { still + 1 } else { 0 };
         }
         (at.parameters, steps - still)
+    };
+    starts.iter().map(end).unzip()
+}
+
+/// A law on one face: one of the firmware's controllers, or a method in double precision to compare them with.
+pub enum Law {
+    /// The firmware's, or the paper's.
+    Controller(Controller),
+    /// Newton's method or the projected gradient.
+    Baseline(Method),
+}
+
+impl Law {
+    /// By its name.
+    ///
+    /// # Errors
+    /// That there is none.
+    pub fn named(name: &str) -> Result<Self, Refusal> {
+        Ok(match name {
+            "newton" => Self::Baseline(Method::Newton),
+            "saturated-newton" => Self::Baseline(Method::SaturatedNewton),
+            "projected-newton" => Self::Baseline(Method::ProjectedNewton),
+            "projected-gradient" => Self::Baseline(Method::ProjectedGradient),
+            "second-order" | "certified" => Self::Controller(law(name)?),
+            _ => {
+                let says = "there are \"second-order\", \"certified\", \"newton\", \"saturated-newton\", \
+                            \"projected-newton\" and \"projected-gradient\"";
+                return Err(Refusal::Settings(format!("there is no law {name:?}; {says}")));
+            }
+        })
+    }
+}
+
+/// Where a baseline ends from each start, and after how many steps; not a number where it left the patch.
+pub fn settle_baseline(
+    patch: &NurbsPatch,
+    method: Method,
+    probe: DVec3,
+    starts: &[[f64; 2]],
+    most: u32,
+) -> (Vec<[f32; 2]>, Vec<u32>) {
+    let baseline = Baseline::new(patch, method, Errors::Covariant);
+    let end = |start: &[f64; 2]| {
+        let (mut at, mut steps) = (start.map(|parameter| parameter.clamp(0.0, 1.0)), 0);
+        while steps < most {
+            match baseline.step(at, probe) {
+                Advance::To(next) => at = next,
+                Advance::Out(_) => return ([f32::NAN; 2], steps),
+                Advance::Nowhere => break,
+            }
+            steps += 1;
+        }
+        (at.map(|parameter| parameter as f32), steps)
     };
     starts.iter().map(end).unzip()
 }

@@ -1,5 +1,6 @@
 //! The simulated loop of `palpate sim`: a device in a hand, the servo loop, a body.
 
+use crate::devices::OnDevice;
 use crate::refusal::Refusal;
 use glam::DVec3;
 use palpate::body::Body;
@@ -7,14 +8,13 @@ use palpate::device::{Counts, Device, Kinematics, Protection};
 use palpate::field::MAX_MODES;
 use palpate::math::Vec3;
 use palpate::patch::Patch as _;
-use palpate::servo::{Config, Event, Guard, Input, Safety, Servo, Settings, SoftBody, Surface, Tracked as _};
+use palpate::servo::recommended::Recommended;
+use palpate::servo::{
+    Config, Event, Guard, Input, Rendering, Safety, Servo, Settings, SoftBody, Surface, Tracked as _,
+};
 use palpate::wire::Report;
 use palpate_sim::plant::{HandSettings, PathError, Plant, PlantSettings, TouchingPath, direction_around};
 
-/// Stiffness, N/m, and damping, N·s/m, of a surface unless asked for otherwise: every device holds it without a limit
-/// cycle.
-const STIFFNESS: f32 = 1_000.0;
-const DAMPING: f32 = 2.0;
 /// The seconds before force is asked for, in which the witness point converges.
 const STANDBY: f32 = 0.1;
 /// The longest run: an hour of a hand's path is 86 MB.
@@ -37,11 +37,13 @@ pub struct Wishes {
     /// N·s/m.
     pub damping: Option<f32>,
     /// N.
-    pub max_force: f32,
+    pub max_force: Option<f32>,
     /// Corner frequency of the velocity filter, Hz.
-    pub velocity_corner: f32,
+    pub velocity_corner: Option<f32>,
     /// Seconds over which the force is faded in.
     pub soft_start: f32,
+    /// The recommended rendering; else spring and damper alone.
+    pub smooth: bool,
     /// With all protection of the device.
     pub protected: bool,
     /// Where the origin of the tables lies in the device's workspace, m; centres the body if not given.
@@ -77,20 +79,24 @@ impl Run {
     }
 }
 
-/// Runs the loop against a simulated device.
-///
-/// # Errors
-/// A wish that the device or the loop refuses, and a body that the hand cannot reach.
-pub fn run<K: Kinematics<3>>(
-    device: &'static Device<K, 3>,
-    protection: Protection<3>,
-    simulated: &PlantSettings,
-    body: &'static Body<'static>,
-    wishes: &Wishes,
-) -> Result<Run, Refusal> {
-    match wishes.soft {
-        None => run_over(device, protection, simulated, body, body, wishes),
-        Some(soft) => run_over(device, protection, simulated, body, soft, wishes),
+/// A run of a body on a device.
+pub struct Simulated<'a>(pub &'static Body<'static>, pub &'a Wishes);
+
+impl OnDevice for Simulated<'_> {
+    type Made = Run;
+
+    fn on<K: Kinematics<3> + Copy + Sync + 'static>(
+        self,
+        device: &'static Device<K, 3>,
+        protection: Protection<3>,
+        plant: &PlantSettings,
+        recommended: Recommended,
+    ) -> Result<Run, Refusal> {
+        let Self(body, wishes) = self;
+        match wishes.soft {
+            None => run_over(device, protection, plant, body, body, wishes, recommended),
+            Some(soft) => run_over(device, protection, plant, body, soft, wishes, recommended),
+        }
     }
 }
 
@@ -102,6 +108,7 @@ fn run_over<K: Kinematics<3>, S: Surface>(
     body: &'static Body<'static>,
     surface: &'static S,
     wishes: &Wishes,
+    Recommended { settings: recommended, rendering }: Recommended,
 ) -> Result<Run, Refusal> {
     let ticks = wishes.seconds * f64::from(wishes.rate);
     if !(wishes.seconds <= LONGEST && (1.0..=f64::from(u32::MAX)).contains(&ticks)) {
@@ -110,10 +117,10 @@ fn run_over<K: Kinematics<3>, S: Surface>(
     }
     let settings = Settings {
         rate_hz: wishes.rate,
-        stiffness_n_per_m: wishes.stiffness.unwrap_or(STIFFNESS.min(device.max_stiffness_n_per_m)),
-        damping_n_s_per_m: wishes.damping.unwrap_or(DAMPING.min(device.max_damping_n_s_per_m)),
-        max_force_n: wishes.max_force,
-        velocity_corner_hz: wishes.velocity_corner,
+        stiffness_n_per_m: wishes.stiffness.unwrap_or(recommended.stiffness_n_per_m),
+        damping_n_s_per_m: wishes.damping.unwrap_or(recommended.damping_n_s_per_m),
+        max_force_n: wishes.max_force.unwrap_or(recommended.max_force_n),
+        velocity_corner_hz: wishes.velocity_corner.unwrap_or(recommended.velocity_corner_hz),
         soft_start_s: wishes.soft_start,
         body_origin_m: wishes.origin.map_or_else(|| -middle(body), |origin| origin.as_vec3()),
     };
@@ -121,7 +128,8 @@ fn run_over<K: Kinematics<3>, S: Surface>(
     let bound = |says: &dyn std::fmt::Display| {
         Refusal::Settings(format!("{says}: this device takes up to {most_stiffness} N/m and {most_damping} N·s/m"))
     };
-    let config = Config { settings, safety: SAFETY, ..Config::DEFAULT };
+    let rendering = if wishes.smooth { rendering } else { Rendering::PLAIN };
+    let config = Config { settings, rendering, safety: SAFETY, ..Config::DEFAULT };
     let servo = Servo::try_new(device, surface, config).map_err(|error| bound(&error))?;
     let mut plant = plant(device, simulated, body, settings.body_origin_m, wishes)?;
     let refused = |says: &dyn std::fmt::Display| Refusal::Settings(says.to_string());

@@ -2,8 +2,8 @@
 
 use crate::arrays::{line, table, usable, wide};
 use crate::body::Body;
-use crate::devices::run_on;
-use crate::simulate::{Run, Sample, Wishes};
+use crate::devices::on_device;
+use crate::simulate::{Run, Sample, Simulated, Wishes};
 use glam::DVec3;
 use palpate::body::Effort;
 use pyo3::prelude::*;
@@ -13,7 +13,7 @@ use std::path::PathBuf;
 /// Runs the loop; `at` is where the model's origin lies in the device's workspace, m.
 #[pyfunction]
 #[pyo3(signature = (
-    device, body, *, rate, seconds, seed, stiffness, damping, max_force, velocity_corner, soft_start, protected, at
+    device, body, *, rate, seconds, seed, stiffness, damping, max_force, velocity_corner, soft_start, smooth, protected, at
 ))]
 #[allow(clippy::too_many_arguments, reason = "each is an argument of the function in Python, by its name")]
 pub fn simulate<'py>(
@@ -25,9 +25,10 @@ pub fn simulate<'py>(
     seed: u64,
     stiffness: Option<f32>,
     damping: Option<f32>,
-    max_force: f32,
-    velocity_corner: f32,
+    max_force: Option<f32>,
+    velocity_corner: Option<f32>,
     soft_start: f32,
+    smooth: bool,
     protected: bool,
     at: Option<[f64; 3]>,
 ) -> PyResult<Bound<'py, PyDict>> {
@@ -49,11 +50,12 @@ pub fn simulate<'py>(
         max_force,
         velocity_corner,
         soft_start,
+        smooth,
         protected,
         origin,
         soft,
     };
-    let run = py.detach(|| run_on(&device, surface, &wishes))?;
+    let run = py.detach(|| on_device(&device, Simulated(surface, &wishes)))?;
     columns(py, &run, body.count())
 }
 

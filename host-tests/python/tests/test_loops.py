@@ -35,8 +35,8 @@ def test_a_tracker_begins_where_it_is_told_to(capped_box):
         capped_box.tracker(start=(6, 0.5, 0.5))
     with pytest.raises(palpate.ArrayError, match=r"start\[0\] is not finite"):
         capped_box.tracker(start=(0, float("nan"), 0.5))
-    with pytest.raises(palpate.SettingsError, match="there is no law \"newton\""):
-        capped_box.tracker(law="newton")
+    with pytest.raises(palpate.SettingsError, match="there is no law \"steepest\""):
+        capped_box.tracker(law="steepest")
 
 
 def test_both_laws_end_at_the_same_point(capped_box):
@@ -51,8 +51,8 @@ def test_both_laws_end_at_the_same_point(capped_box):
     assert np.abs(distances - distances.min()).max() < 1e-6 * capped_box.size
     assert ends[0].steps.max() < ends[1].steps.max()
     assert capped_box.settle(0, probe, starts, most=1).steps.max() == 1
-    with pytest.raises(palpate.SettingsError, match="there is no law \"newton\""):
-        capped_box.settle(0, probe, starts, law="newton")
+    with pytest.raises(palpate.SettingsError, match="there is no law \"steepest\""):
+        capped_box.settle(0, probe, starts, law="steepest")
     with pytest.raises(palpate.ArrayError, match=r"probe is of shape \(2, 3\)"):
         capped_box.settle(0, [[0, 0, 0], [0, 0, 0]], starts)
 
@@ -237,3 +237,28 @@ def test_a_link_opens_at_the_speed_that_monitor_takes():
     monitor = (ROOT / "host-tests/tool/src/commands/monitor.rs").read_text()
     [speed] = re.findall(r"default_value_t = ([\d_]+)[^\]]*\]\s+baud:", monitor)
     assert inspect.signature(palpate.Link).parameters["baud"].default == int(speed)
+
+
+def test_the_loop_by_itself_is_the_loop_of_a_run(capped_box):
+    """On the own plant, against the run's own duties: the same counts give the same duties."""
+    run = palpate.simulate("woodenhaptics-2016", capped_box, seconds=1.0, at=(-0.03, -0.02, -0.03))
+    loop = palpate.Loop(
+        "woodenhaptics-2016", capped_box, at=(-0.03, -0.02, -0.03)
+    )
+    duties = [loop.tick(counts.tolist(), tick >= 400) for tick, counts in enumerate(run.counts)]
+    assert (np.array(duties) == run.duties).all() and np.any(run.duties)
+    assert loop.fault == 0 and loop.phase == 3
+
+
+def test_a_wall_holds_the_own_plant_by_its_spring():
+    side = 0.1
+    wall = palpate.Body.bake([{"degree": [1, 1], "points": [[[-side, -side, 0], [-side, side, 0]], [[side, -side, 0], [side, side, 0]]]}])
+    device = palpate.Device("falcon")
+    plant, loop = palpate.Plant(device, [0, 0, 0.004]), palpate.Loop("falcon", wall)
+    for _ in range(6_000):
+        plant.advance(loop.tick(plant.counts), [0, 0, -0.01], stiffness=1000.0, damping=20.0)
+    # The loop knows the depth by its encoders: 16 µm of 3 mm, and friction holds the probe off its rest.
+    assert loop.force[2] == pytest.approx(500.0 * -plant.position[2], rel=0.02)
+    assert np.allclose(device.pose(device.angles(plant.position))[0], plant.position, atol=1e-7)
+    with pytest.raises(palpate.SettingsError):
+        palpate.Loop("falcon", wall, stiffness=1e5)

@@ -29,8 +29,8 @@ def test_a_notebook_runs(path):
     NotebookClient(notebook, timeout=600, kernel_name="python3", resources={"metadata": {"path": ROOT}}).execute()
 
 
-def test_there_are_two_notebooks_and_no_outputs_in_them():
-    assert len(NOTEBOOKS) == 2
+def test_there_are_three_notebooks_and_no_outputs_in_them():
+    assert len(NOTEBOOKS) == 3
     for path in NOTEBOOKS:
         cells = [cell for cell in nbformat.read(path, as_version=4).cells if cell.cell_type == "code"]
         assert cells and not any(cell.outputs for cell in cells)

@@ -15,7 +15,10 @@ threads run.
 from ._native import ArrayError, FileError, LinkError, ModelError, SettingsError
 from .bodies import Body, Pair, Tracker
 from .loops import Link, devices, simulate
+from .outside import Outside
 from .results import Apart, Closest, Curved, Records, Run, Settled, Ticks
+from .rig import Device, Loop, Plant
+from .surfaces import patch_of
 
 __all__ = [
     "Apart",
@@ -23,11 +26,15 @@ __all__ = [
     "Body",
     "Closest",
     "Curved",
+    "Device",
     "FileError",
     "Link",
     "LinkError",
+    "Loop",
     "ModelError",
+    "Outside",
     "Pair",
+    "Plant",
     "Records",
     "Run",
     "Settled",
@@ -35,5 +42,6 @@ __all__ = [
     "Ticks",
     "Tracker",
     "devices",
+    "patch_of",
     "simulate",
 ]

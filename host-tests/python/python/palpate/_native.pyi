@@ -10,11 +10,14 @@ from numpy.typing import NDArray
 __all__ = [
     "ArrayError",
     "Body",
+    "Device",
     "FileError",
     "Link",
     "LinkError",
+    "Loop",
     "ModelError",
     "Pair",
+    "Plant",
     "SettingsError",
     "Tracker",
     "devices",
@@ -109,6 +112,67 @@ class Link:
     def read(self, count: int, timeout: float) -> dict[str, Any]: ...
     def close(self) -> None: ...
 
+@final
+class Device:
+    def __new__(cls, device: str | PathLike[str]) -> Device: ...
+    def pose(self, angles: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
+    def angles(self, places: NDArray[np.float64]) -> NDArray[np.float64]: ...
+    def counts(self, angles: tuple[float, ...]) -> list[int]: ...
+    def torques(self, duties: Sequence[int]) -> list[float]: ...
+    def numbers(self) -> str: ...
+
+@final
+class Loop:
+    def __new__(
+        cls,
+        device: str | PathLike[str],
+        body: Body,
+        *,
+        rate: float,
+        stiffness: float,
+        damping: float,
+        max_force: float,
+        velocity_corner: float,
+        soft_start: float,
+        smooth: bool,
+        protected: bool,
+        beyond: bool,
+        at: tuple[float, ...],
+    ) -> Loop: ...
+    def tick(self, counts: Sequence[int], enable: bool) -> list[int]: ...
+    @property
+    def probe(self) -> list[float]: ...
+    @property
+    def force(self) -> list[float]: ...
+    @property
+    def gap(self) -> float: ...
+    @property
+    def contact(self) -> int: ...
+    @property
+    def phase(self) -> int: ...
+    @property
+    def fault(self) -> int: ...
+
+@final
+class Plant:
+    def __new__(cls, device: Device, position: tuple[float, ...], rate: float) -> Plant: ...
+    def advance(
+        self,
+        duties: Sequence[int],
+        aim: tuple[float, ...],
+        velocity: tuple[float, ...],
+        stiffness: float,
+        damping: float,
+    ) -> None: ...
+    @property
+    def counts(self) -> list[int]: ...
+    @property
+    def angles(self) -> list[float]: ...
+    @property
+    def position(self) -> list[float]: ...
+    @property
+    def velocity(self) -> list[float]: ...
+
 def simulate(
     device: str | PathLike[str],
     body: Body,
@@ -118,9 +182,10 @@ def simulate(
     seed: int,
     stiffness: float | None,
     damping: float | None,
-    max_force: float,
-    velocity_corner: float,
+    max_force: float | None,
+    velocity_corner: float | None,
     soft_start: float,
+    smooth: bool,
     protected: bool,
     at: tuple[float, ...] | None,
 ) -> dict[str, Any]: ...

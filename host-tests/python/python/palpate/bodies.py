@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _native
 from .results import Apart, Closest, Curved, Settled, Ticks
 from .rows import row, rows
+from .surfaces import is_surface, patch_of
 
 
 class Body:
@@ -24,7 +25,7 @@ class Body:
 
     @staticmethod
     def bake(
-        model: str | PathLike[str] | Sequence[Mapping[str, Any]],
+        model: str | PathLike[str] | Sequence[Any] | Any,
         *,
         tolerance: float = 1e-5,
         unit: str = "m",
@@ -35,7 +36,8 @@ class Body:
         `model` is a path: a model file (``.toml``), a CAD part (``.step``, ``.stp``, made into patches within
         `tolerance`, m), a baked body (``.palp``), or the bare name of a model that ships. Or it is a list of patches,
         each a dictionary as in a model file: ``degree`` (two integers) and ``points`` (rows along u of rows along v of
-        3 or 4 numbers, in `unit`: "m", "cm" or "mm"), and by choice ``name``, ``knots_u``, ``knots_v``, ``flip``.
+        3 or 4 numbers, in `unit`: "m", "cm" or "mm"), and by choice ``name``, ``knots_u``, ``knots_v``, ``flip``. A
+        surface of geomdl or splinepy is a patch as well, alone or in the list.
 
         With `modes`, the path of a modes file as of ``palpate closest --modes``, the body deforms: `closest` then takes
         `q`, and `simulate` moves its modes. `evaluate`, `settle` and `save` are of the body at rest.
@@ -48,8 +50,10 @@ class Body:
         >>> palpate.Body.bake([square], unit="cm").closest([0.03, 0.02, 0.01]).gap.round(9)
         array([0.01])
         """
+        if is_surface(model):
+            model = [model]
         if isinstance(model, (list, tuple)):
-            model = [_plain(patch) for patch in model]
+            model = [patch_of(patch) if is_surface(patch) else _plain(patch) for patch in model]
         return Body(_native.Body.bake(model, tolerance, unit, modes))
 
     @staticmethod
@@ -104,8 +108,9 @@ class Body:
     ) -> Settled:
         """Where a control law ends on one face for a `probe`, (3,), m, from each of `starts`, (n, 2), 0 to 1.
 
-        `law` is "second-order", the firmware's, or "certified", the paper's at the certified gain; it takes at most
-        `most` steps. Raises SettingsError for another law.
+        `law` is "second-order", the firmware's, or "certified", the paper's at the certified gain. To compare with, in
+        double precision: "newton" (ends as NaN where it leaves the face), "saturated-newton", "projected-newton" and
+        "projected-gradient". It takes at most `most` steps. Raises SettingsError for another law.
         """
         place = row("probe", probe, 3)
         return Settled(*self._native.settle(face, place, rows("starts", starts, 2), law, most))

@@ -27,9 +27,10 @@ def simulate(
     seed: int = 2,
     stiffness: float | None = None,
     damping: float | None = None,
-    max_force: float = 5.0,
-    velocity_corner: float = 150.0,
+    max_force: float | None = None,
+    velocity_corner: float | None = None,
     soft_start: float = 0.1,
+    smooth: bool = True,
     protected: bool = False,
     at: ArrayLike | None = None,
 ) -> Run:
@@ -38,9 +39,9 @@ def simulate(
     For a body of several faces it is what ``palpate sim`` runs, bit by bit; one face is felt as a body, too.
 
     `device` is one of `devices`, or the path of one's own device file (``.toml``); `body` is what it feels. `rate`, Hz, `seconds`, and `seed` of the hand's path;
-    `stiffness`, N/m, and `damping`, N·s/m, of the surface, 1000 and 2 or what the device takes if that is less;
-    `max_force`, N; `velocity_corner`, Hz, of the velocity filter; `soft_start`, s, over which force is faded in;
-    `protected` with all protection of the device; `at`, (3,), m, where the model's origin lies in the device's
+    `stiffness`, N/m, and `damping`, N·s/m, of the surface, `max_force`, N, and `velocity_corner`, Hz, of the velocity
+    filter: what is recommended for the device, unless given; `soft_start`, s, over which force is faded in; `smooth` is
+    the recommended rendering, without it the force is spring and damper alone; `protected` with all protection of the device; `at`, (3,), m, where the model's origin lies in the device's
     workspace, or None to centre the body there.
 
     A body with modes gives way: `q` of the run is theirs in each tick; its modes file then needs ``frequency``,
@@ -61,6 +62,7 @@ def simulate(
         max_force=max_force,
         velocity_corner=velocity_corner,
         soft_start=soft_start,
+        smooth=smooth,
         protected=protected,
         at=place,
     )

@@ -132,6 +132,48 @@ pub struct PlantSettings {
 }
 
 impl PlantSettings {
+    /// The numbers of an arm without counterweights or of a delta for a plant of another make, as JSON: SI units, rotors
+    /// at the joint. `None` for another mechanism.
+    pub fn numbers(&self) -> Option<String> {
+        let joints = &self.joints;
+        let mut rotors = joints.map(|joint| joint.rotor_inertia * joint.ratio * joint.ratio);
+        let link = |link: Link| [link.length, link.mass, link.centre, link.inertia];
+        let mut rows: Vec<(&str, String)> = match self.mechanism {
+            MechanismSettings::Arm(arm) if arm.balance == [0.0; 2] => {
+                rotors[0] += arm.turntable_inertia;
+                vec![
+                    ("first", format!("{:?}", link(arm.first_link))),
+                    ("second", format!("{:?}", link(arm.second_link))),
+                    ("base_height", format!("{:?}", arm.base_height)),
+                    ("centre", format!("{:?}", arm.workspace_centre)),
+                ]
+            }
+            MechanismSettings::Delta(delta) => {
+                rotors = rotors.map(|rotor| rotor + delta.thigh_inertia);
+                let DeltaSettings { a, b, c, d, e, f, r, s, .. } = delta;
+                vec![
+                    ("lengths", format!("{:?}", [a, b, c, d, e, f, r, s])),
+                    ("legs", format!("{:?}", delta.legs)),
+                    ("depth", format!("{:?}", delta.workspace_depth)),
+                    ("thigh", format!("{:?}", [delta.thigh_mass, delta.thigh_centre])),
+                    ("shin", format!("{:?}", delta.shin_mass)),
+                    ("plate", format!("{:?}", delta.plate_mass)),
+                ]
+            }
+            _ => return None,
+        };
+        rows.extend([
+            ("gravity", format!("{:?}", self.gravity)),
+            ("time_constant", format!("{:?}", self.current_time_constant)),
+            ("rotors", format!("{rotors:?}")),
+            ("viscous", format!("{:?}", joints.map(|joint| joint.viscous_friction))),
+            ("coulomb", format!("{:?}", joints.map(|joint| joint.coulomb_friction))),
+            ("stops", format!("{:?}", joints.map(|joint| joint.stops))),
+        ]);
+        let rows: Vec<String> = rows.iter().map(|(name, value)| format!("{name:?}: {value}")).collect();
+        Some(format!("{{{}}}", rows.join(", ")))
+    }
+
     /// The same in as many sub-steps as a test needs, or in those of the environment's `PALPATE_SUB_STEPS`.
     ///
     /// # Panics

@@ -1,7 +1,7 @@
 //! WoodenHaptics in MuJoCo, where `PALPATE_MUJOCO` names a Python that has it: `host-tests/mujoco/arm.py` over a pipe.
 
 use palpate_sim::motion::Moving;
-use palpate_sim::plant::{Encoder, HandSettings, Link, MechanismSettings, Motor, PlantSettings, Vector};
+use palpate_sim::plant::{Encoder, HandSettings, Motor, PlantSettings, Vector};
 use std::io::{Read as _, Write as _};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 
@@ -21,7 +21,6 @@ impl Mujoco {
     /// An arm at rest with these joint angles; `None` where there is no MuJoCo.
     pub fn start(settings: &PlantSettings, angles: Vector) -> Option<Self> {
         let python = std::env::var_os("PALPATE_MUJOCO")?;
-        let MechanismSettings::Arm(arm) = settings.mechanism else { panic!("no arm") };
         let mut python = Command::new(python)
             .arg(palpate_suites::repository("host-tests/mujoco/arm.py"))
             .stdin(Stdio::piped())
@@ -29,25 +28,8 @@ impl Mujoco {
             .spawn()
             .expect("the Python of PALPATE_MUJOCO starts");
         let (mut asks, answers) = (python.stdin.take().unwrap(), python.stdout.take().unwrap());
-        let joints = &settings.joints;
-        let mut rotors = joints.map(|joint| joint.rotor_inertia * joint.ratio * joint.ratio);
-        rotors[0] += arm.turntable_inertia;
-        let link = |link: Link| [link.length, link.mass, link.centre, link.inertia];
-        let rows: [(&str, &dyn std::fmt::Debug); 11] = [
-            ("first", &link(arm.first_link)),
-            ("second", &link(arm.second_link)),
-            ("base_height", &arm.base_height),
-            ("centre", &arm.workspace_centre),
-            ("gravity", &settings.gravity),
-            ("time_constant", &settings.current_time_constant),
-            ("rotors", &rotors),
-            ("viscous", &joints.map(|joint| joint.viscous_friction)),
-            ("coulomb", &joints.map(|joint| joint.coulomb_friction)),
-            ("stops", &joints.map(|joint| joint.stops)),
-            ("angles", &angles),
-        ];
-        let rows = rows.map(|(name, value)| format!("{name:?}: {value:?}"));
-        writeln!(asks, "{{{}}}", rows.join(", ")).unwrap();
+        let numbers = settings.numbers().expect("an arm");
+        writeln!(asks, "{}", numbers.replacen('{', &format!("{{\"angles\": {angles:?}, "), 1)).unwrap();
         let (encoders, motors) = (settings.encoders(), settings.motors());
         let mut mujoco =
             Self { python, asks, answers, encoders, motors, angles, position: [0.0; 3], velocity: [0.0; 3] };
