@@ -121,7 +121,11 @@ fn at_rates(model: &Path) -> anyhow::Result<ExitCode> {
         for (chip, board, core, clock, rate) in FASTEST {
             let found = match last.take() {
                 Some(found) if found.0 == board => found,
-                _ => (board, estimate(&protected_on(body, board, &progress)?, core, &[SERVO])?),
+                _ => {
+                    let program = protected_on(body, board, &progress)?;
+                    let what = format!("following each instruction of the ticks on {name}, {}", board.core());
+                    (board, progress.during(&what, || estimate(&program, core, &[SERVO]))?)
+                }
             };
             for (_, calls) in &found.1 {
                 let worst = |values: &[u32]| values.iter().max().copied().unwrap_or_default();
