@@ -64,7 +64,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     } else {
         rate::in_time(&arguments.scene, &mut scene, |scene| on_board(arguments, scene), |run| &run.trace)?
     };
-    let mut figures = Summary::new(&run.trace).rows();
+    let mut figures = vec![("wall", scene.wall())];
+    figures.extend(Summary::new(&run.trace).rows());
     figures.extend(run.sizes);
     // What the page has no device or body for is in the report alone.
     let recorded = scene.recording(&run.trace, &run.on);

@@ -349,6 +349,13 @@ impl Scene {
         ))
     }
 
+    /// The settings of the surface, in words.
+    pub fn wall(&self) -> String {
+        let Settings { stiffness_n_per_m, damping_n_s_per_m, max_force_n, .. } = self.settings;
+        let name = self.rendering.name();
+        format!("{stiffness_n_per_m} N/m, {damping_n_s_per_m} N·s/m, {max_force_n} N at most, {name}")
+    }
+
     /// The model file's name, without its directory.
     pub fn model_name(&self) -> &str {
         &self.file.name
