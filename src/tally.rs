@@ -1,6 +1,6 @@
 //! The work of a tick, in evaluations of tables, and its count on a host.
 //!
-//! With the feature `tally` each evaluation adds to a counter of its thread ([`take`]), for tests that compare ticks
+//! With the feature `tally` each evaluation adds to a counter of its thread (`take`), for tests that compare ticks
 //! with [`crate::body::Body::worst_tick`]. Without it, as on the target, nothing is compiled in.
 
 /// Evaluations of a body's tables, by kind.

@@ -10,7 +10,7 @@ use cortex_m_rt::{ExceptionFrame, exception};
 pub use palpate::device::presets::WOODEN_HAPTICS_2016 as DEVICE;
 use palpate::device::{Counts, Duty};
 use palpate::math::vec3;
-use palpate::servo::{Input, ResetReason, Settings};
+use palpate::servo::{Input, ResetReason, Settings, recommended};
 use stm32g4xx_hal::stm32::Peripherals;
 
 /// The tables of a body, baked when the program is built.
@@ -21,12 +21,8 @@ pub mod body {
 /// The loop's settings: 2 kHz leave 8,000 cycles a tick.
 pub const SETTINGS: Settings = Settings {
     rate_hz: 2_000.0,
-    stiffness_n_per_m: 600.0,
-    damping_n_s_per_m: 2.0,
-    max_force_n: 5.0,
-    velocity_corner_hz: 200.0,
-    soft_start_s: 0.2,
     body_origin_m: vec3(-0.05, -0.05, -0.06),
+    ..recommended::WOODEN_HAPTICS_2016.settings
 };
 
 /// Counts of TIM1 a period: 16 kHz.

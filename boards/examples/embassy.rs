@@ -12,7 +12,7 @@ use core::cell::Cell;
 use cortex_m::interrupt::{Mutex, free};
 use embassy_sync::{blocking_mutex::raw::CriticalSectionRawMutex, signal::Signal};
 use palpate::device::SerialArm;
-use palpate::servo::{Config, Event, Output, Servo, State};
+use palpate::servo::{Config, Event, Output, Rendering, Servo, State};
 use stm32g4xx_hal::stm32::{Interrupt, Peripherals, interrupt};
 
 /// The loop's type, named once, and what the interrupt owns.
@@ -20,7 +20,8 @@ type Loop = Servo<'static, body::Surface, SerialArm, 3>;
 type Own = (Board, State<Loop>);
 
 /// In flash; settings beyond the device's limits are compile errors.
-static SERVO: Loop = Servo::new(&DEVICE, body::SURFACE, Config { settings: SETTINGS, ..Config::DEFAULT });
+static SERVO: Loop =
+    Servo::new(&DEVICE, body::SURFACE, Config { settings: SETTINGS, rendering: Rendering::SMOOTH, ..Config::DEFAULT });
 
 /// On its way from main to the interrupt, before the first tick.
 static PARTS: Mutex<Cell<Option<Own>>> = Mutex::new(Cell::new(None));

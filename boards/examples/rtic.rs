@@ -12,13 +12,14 @@ mod board;
 
 use board::{Board, DEVICE, SETTINGS, body};
 use palpate::device::SerialArm;
-use palpate::servo::{Config, Event, Output, Servo, State};
+use palpate::servo::{Config, Event, Output, Rendering, Servo, State};
 
 /// The loop's type, named once.
 type Loop = Servo<'static, body::Surface, SerialArm, 3>;
 
 /// In flash; settings beyond the device's limits are compile errors.
-static SERVO: Loop = Servo::new(&DEVICE, body::SURFACE, Config { settings: SETTINGS, ..Config::DEFAULT });
+static SERVO: Loop =
+    Servo::new(&DEVICE, body::SURFACE, Config { settings: SETTINGS, rendering: Rendering::SMOOTH, ..Config::DEFAULT });
 
 #[rtic::app(device = stm32g4xx_hal::stm32)]
 mod app {
