@@ -1,6 +1,7 @@
 //! The servo of a board with three joints: an arm with all protection of its device, which runs by itself. A host that
 //! commands the scene must not fall silent: set `Safety::link_timeout_s`.
 
+use palpate::device::drive::Feed;
 use palpate::device::{Device, Homing, Kinematics, Protection, Reference};
 use palpate::scene::{BodyStore, Limits, Material, Motion, Part, Scene, Slot};
 use palpate::servo::{Config, Guarded, Rendering, Safety, Servo, Settings, Surface};
@@ -35,6 +36,24 @@ pub const fn arm_servo<S: Surface, K: Kinematics<3>>(
     };
     let rendering = Rendering::SMOOTH;
     Servo::protected(device, surface, protection, Config { settings, rendering, homing, safety, ..Config::DEFAULT })
+}
+
+/// That each motor of a device is fed as a board drives it: by a bridge's voltage, or by an amplifier that controls the
+/// current. A current's duty on a bridge would be a voltage without any limit of the current.
+///
+/// # Panics
+/// At compile time, if not.
+pub const fn check_feeds<K>(device: &Device<K, 3>, has_bridges: bool) {
+    let mut joint = 0;
+    while joint < 3 {
+        match (&device.feeds[joint], has_bridges) {
+            (Feed::Current, true) => panic!("this board drives bridges: the device's feeds must be Feed::Voltage"),
+            (Feed::Voltage(_), false) => {
+                panic!("this board drives amplifiers: the device's feeds must be Feed::Current")
+            }
+            _ => joint += 1,
+        }
+    }
 }
 
 /// The scene of a slot: its body rests, with the loop's own stiffness and damping.

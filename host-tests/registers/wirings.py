@@ -24,6 +24,11 @@ def write(name: str, folder: Path, number: int | None = None) -> Path:
     # An encoder's line comes before its motor's.
     given = (channel for joint in zip(*channels(NUMBERS[name] if number is None else number)) for channel in joint)
     text = Path(__file__).with_name("swapped.toml").read_text()
+    if not name.startswith("stm32g4"):
+        text = text.replace("counts = 2000.0", "counts = 16384.0")
+    if name.startswith("pico2"):
+        bridge = "bridge = { supply = 24.0, resistance = 0.711, back_emf_share = 0.8 }"
+        text = text.replace("[joint.motor]\n", f"[joint.motor]\n{bridge}\n")
     folder.mkdir(parents=True, exist_ok=True)
     file = folder / f"{name}.toml"
     file.write_text(re.sub(r"^channel = \d$", lambda _: f"channel = {next(given)}", text, flags=re.MULTILINE))

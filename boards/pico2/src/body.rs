@@ -17,6 +17,8 @@ mod own {
     include!(env!("PALPATE_DEVICE_FILE"));
 }
 
+const _: () = palpate_bench::check_feeds(&own::DEVICE, true);
+
 /// Servo rate, Hz: 4,000, or that of `--rate`.
 pub const RATE_HZ: u32 = include!(concat!(env!("OUT_DIR"), "/rate.rs"));
 #[cfg(feature = "host")]

@@ -1,6 +1,7 @@
 //! The servo's description of a device, for any mechanism.
 
 use palpate::device::{Delta, Device, FiveBar, Kinematics, LinkageArm, Paddle, SerialArm};
+use palpate::servo::recommended::{self, Recommended};
 
 /// The servo's description of a device, by its mechanism. Only a `match` on it distinguishes mechanisms; the loop
 /// behind it is generic, on the host as on the target.
@@ -48,6 +49,17 @@ impl Preset {
             Self::Delta(device) => Limits::of(device),
             Self::FiveBar(device) => Limits::of(device),
             Self::Paddle(device) => Limits::of(device),
+        }
+    }
+
+    /// Settings recommended for any device of these limits, as the boards take them.
+    pub fn recommended(self) -> Recommended {
+        match self {
+            Self::SerialArm(device) => recommended::of(device),
+            Self::LinkageArm(device) => recommended::of(device),
+            Self::Delta(device) => recommended::of(device),
+            Self::FiveBar(device) => recommended::of(device),
+            Self::Paddle(device) => recommended::of(device),
         }
     }
 

@@ -193,6 +193,14 @@ fn check(file: &DeviceFile, refuse: impl Fn(&str, &str) -> DeviceFileError) -> R
         {
             return Err(refuse(&entry("motor.bridge"), "needs a supply, a resistance, and a share from 0 to 1"));
         }
+        if let Some(bridge) = joint.motor.bridge
+            && bridge.supply / bridge.resistance < joint.motor.current_at_full
+        {
+            let most = bridge.supply / bridge.resistance;
+            let reason =
+                format!("its supply drives {most:.2} A at most through its resistance: lower current_at_full to that");
+            return Err(refuse(&entry("motor.bridge"), &reason));
+        }
     }
     if !positive(file.limits.max_probe_speed) {
         return Err(refuse("limits.max_probe_speed", "must be positive and finite"));

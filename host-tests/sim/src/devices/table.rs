@@ -35,7 +35,9 @@ impl ShippedDevice {
 
     /// Recommended settings: the hand feels the surface and not the loop.
     pub fn recommended(&self) -> Recommended {
-        let mut recommended = match self.name {
+        match self.name {
+            // One's own is what its firmware takes it for, whatever it is called.
+            _ if self.constants.is_some() => self.preset.recommended(),
             "woodenhaptics-2016" => recommended::WOODEN_HAPTICS_2016,
             "polhem-v2" => recommended::POLHEM_V2,
             "phantom-premium" => recommended::PHANTOM_PREMIUM,
@@ -43,20 +45,8 @@ impl ShippedDevice {
             "haply-2diy-v3" => recommended::HAPLY_2DIY_V3,
             "haply-kit-v1" => recommended::HAPLY_KIT_V1,
             "hapkit" => recommended::HAPKIT,
-            _ => match self.preset {
-                Preset::SerialArm(device) => recommended::of(device),
-                Preset::LinkageArm(device) => recommended::of(device),
-                Preset::Delta(device) => recommended::of(device),
-                Preset::FiveBar(device) => recommended::of(device),
-                Preset::Paddle(device) => recommended::of(device),
-            },
-        };
-        // A file that is named like a device that ships may have lower limits.
-        let (limits, settings) = (self.preset.limits(), &mut recommended.settings);
-        settings.stiffness_n_per_m = settings.stiffness_n_per_m.min(limits.stiffness);
-        settings.damping_n_s_per_m = settings.damping_n_s_per_m.min(limits.damping);
-        settings.max_force_n = settings.max_force_n.min(limits.force);
-        recommended
+            _ => self.preset.recommended(),
+        }
     }
 
     /// Its protection.

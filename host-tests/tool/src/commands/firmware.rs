@@ -3,13 +3,14 @@
 use super::output::write_whole;
 use super::{bake, long_calls, options};
 use crate::commission::RATE;
-use crate::firmware::{self, AnyBoard, Kind, Place, Progress, SetUpError, Toolchain, choose_body};
+use crate::firmware::{self, AnyBoard, BenchBoard, Kind, Place, Progress, SetUpError, Toolchain, choose_body};
 use crate::{devices, repository};
 use anyhow::{Context, ensure};
 use clap::Args;
 use glam::DVec3;
 use palpate::math::Vec3;
-use palpate_sim::devices::{settings_source, source};
+use palpate::servo::Settings;
+use palpate_sim::devices::{DeviceFile, JointEntry, OwnDevice, settings_source, source};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
@@ -93,6 +94,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         let image = toolchain.target_folder()?.join(board.target()).join("release").join(board.name());
         print!("{}", firmware::report(board, arguments.kind(), &image)?);
         println!("image: {}\nto flash it: {}", image.display(), board.flashing(&image));
+        if let Some(device) = &arguments.device {
+            println!("{}", inside(&devices::own(device)?, arguments.rate));
+        }
     }
     Ok(ExitCode::SUCCESS)
 }
@@ -121,6 +125,7 @@ fn accepted(toolchain: &Toolchain, board: AnyBoard) -> anyhow::Result<PathBuf> {
     let (built, image) = (folder.join(board.name()), folder.join(format!("{}-accept", board.name())));
     fs::rename(&built, &image).with_context(|| built.display().to_string())?;
     print!("{}", firmware::report(board, Kind::Accepted, &image)?);
+    println!("to flash it: {}", board.flashing(&image));
     Ok(image)
 }
 
@@ -169,10 +174,50 @@ fn constants(board: AnyBoard, device: &Path) -> anyhow::Result<(&'static str, Pa
     let own = devices::own(device)?;
     let (variable, source) = match board {
         AnyBoard::Emulated(_) => ("PALPATE_SETTINGS", settings_source(&own, RATE)),
-        AnyBoard::Bench(_) => ("PALPATE_DEVICE", source(&own, &device.to_string_lossy())),
+        AnyBoard::Bench(board) => {
+            suits(board, &own.file).with_context(|| device.display().to_string())?;
+            ("PALPATE_DEVICE", source(&own, &device.to_string_lossy()))
+        }
     };
     let file = written("devices", &format!("{}.rs", own.file.name), &source)?;
     Ok((variable, file))
+}
+
+/// The device in an image, in words: as the boards take it.
+fn inside(own: &OwnDevice, rate: Option<u32>) -> String {
+    let Settings { stiffness_n_per_m, damping_n_s_per_m, max_force_n, .. } = own.preset.recommended().settings;
+    let stages = if own.file.joint.iter().any(|joint| joint.motor.bridge.is_some()) { "bridges" } else { "amplifiers" };
+    format!(
+        "device: {}, {stages}; smooth, {stiffness_n_per_m} N/m, {damping_n_s_per_m} N·s/m, {max_force_n} N at most, {} Hz, all protection",
+        own.file.name,
+        rate.unwrap_or(4_000)
+    )
+}
+
+/// Whether a board has the sensors and the motor stages that a device file says.
+fn suits(board: BenchBoard, file: &DeviceFile) -> anyhow::Result<()> {
+    for JointEntry { name, encoder, motor, .. } in &file.joint {
+        if let Some(counts) = board.sensor_counts() {
+            ensure!(
+                encoder.counts == counts,
+                "joint {name}: counts = {}, and {} reads angle sensors of {counts} counts a turn",
+                encoder.counts,
+                board.name()
+            );
+        }
+        ensure!(
+            board.has_bridges() || motor.bridge.is_none(),
+            "joint {name}: {} drives amplifiers that control the current: leave `bridge` out",
+            board.name()
+        );
+        ensure!(
+            !board.has_bridges() || motor.bridge.is_some(),
+            "joint {name}: {} drives bridges that give a voltage, which need their supply in V and the resistance of motor and \
+             bridge in ohms: bridge = {{ supply = 24.0, resistance = 0.7, back_emf_share = 0.8 }} in [joint.motor]",
+            board.name()
+        );
+    }
+    Ok(())
 }
 
 /// A file for a board's build. As it was, cargo has nothing to do.

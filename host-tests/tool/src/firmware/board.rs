@@ -135,6 +135,20 @@ impl BenchBoard {
         }
     }
 
+    /// Counts a turn of its sensors; `None` where any quadrature encoder is counted.
+    pub const fn sensor_counts(self) -> Option<f64> {
+        match self {
+            Self::Stm32g4 => None,
+            // AS5047P, 14 bits.
+            Self::Pico2 | Self::Teensy41 => Some(16_384.0),
+        }
+    }
+
+    /// Whether it drives bridges that give a voltage, not amplifiers that control the current.
+    pub const fn has_bridges(self) -> bool {
+        matches!(self, Self::Pico2)
+    }
+
     /// The command that flashes an image.
     pub fn flashing(self, image: &Path) -> String {
         let image = image.display();
