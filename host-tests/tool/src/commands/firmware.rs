@@ -249,3 +249,39 @@ fn command(toolchain: &Toolchain, arguments: &Arguments, progress: &Progress) ->
     command.env("CARGO_TARGET_DIR", toolchain.target_folder()?);
     Ok(command)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use palpate_sim::devices::{BridgeEntry, named};
+
+    #[test]
+    fn a_board_takes_the_sensors_and_motor_stages_that_it_has() {
+        let file = named("woodenhaptics-2016").and_then(|device| device.file()).expect("a file of an arm that ships");
+        let with = |counts: f64, bridge: Option<BridgeEntry>| {
+            let mut file = file.clone();
+            for joint in &mut file.joint {
+                (joint.encoder.counts, joint.motor.bridge) = (counts, bridge);
+            }
+            file
+        };
+        let bridge = Some(BridgeEntry { supply: 24.0, resistance: 0.7, back_emf_share: 0.8 });
+        let takes = |board, counts, bridge| suits(board, &with(counts, bridge)).map_err(|error| error.to_string());
+        for (board, counts, bridge) in [
+            (BenchBoard::Stm32g4, 2_000.0, None),
+            (BenchBoard::Teensy41, 16_384.0, None),
+            (BenchBoard::Pico2, 16_384.0, bridge),
+        ] {
+            assert_eq!(takes(board, counts, bridge), Ok(()));
+        }
+        for (board, counts, bridge, culprit) in [
+            (BenchBoard::Stm32g4, 2_000.0, bridge, "leave `bridge` out"),
+            (BenchBoard::Teensy41, 2_000.0, None, "counts = 2000"),
+            (BenchBoard::Pico2, 8_192.0, bridge, "counts = 8192"),
+            (BenchBoard::Pico2, 16_384.0, None, "bridge = {"),
+        ] {
+            let error = takes(board, counts, bridge).expect_err("a device that the board does not bear");
+            assert!(error.contains(culprit), "{error}");
+        }
+    }
+}
