@@ -188,8 +188,9 @@ fn no_order_drives_a_knob_whose_button_is_up() {
 }
 
 /// What a feel asks for at an angle and a rate, N·m, in double precision, from the formulas on its parts' pages; `None`
-/// where a click is about to snap, within a rounding.
-fn asked(feel: &Feel, click: &mut i32, angle: f64, rate: f64) -> Option<f64> {
+/// where a click is about to snap, within a rounding, and from there on until the dial is where one detent alone can
+/// hold it.
+fn asked(feel: &Feel, held: &mut Option<i32>, angle: f64, rate: f64) -> Option<f64> {
     let number = |number: f32| f64::from(number);
     let wave = |wave: &Wave| {
         let turns = (angle - number(wave.centre_rad)) / number(wave.pitch_rad);
@@ -200,16 +201,16 @@ fn asked(feel: &Feel, click: &mut i32, angle: f64, rate: f64) -> Option<f64> {
     if let Some(clicks) = &feel.clicks {
         let (pitch, most) = (number(clicks.pitch), number(clicks.max_force));
         let off = |click: i32| angle - f64::from(click) * pitch;
-        let margin = off(*click).abs() - number(clicks.snap) * pitch;
-        if margin.abs() < 1e-5 {
-            return None;
-        }
-        if margin > 0.0 {
-            *click = ((angle / pitch).round() as i32).clamp(clicks.first, clicks.last);
-        }
-        let is_beyond = (*click == clicks.first && off(*click) < 0.0) || (*click == clicks.last && off(*click) > 0.0);
-        let stiffness = number(if is_beyond { clicks.wall_stiffness } else { clicks.stiffness });
-        sum += (-stiffness * off(*click) - number(clicks.damping) * rate).clamp(-most, most);
+        let nearest = ((angle / pitch).round() as i32).clamp(clicks.first, clicks.last);
+        let is_outside =
+            |click: i32| (click == clicks.first && off(click) < 0.0) || (click == clicks.last && off(click) > 0.0);
+        let is_alone = is_outside(nearest) || off(nearest).abs() < (1.0 - number(clicks.snap)) * pitch - 1e-5;
+        let click = held.or(is_alone.then_some(nearest))?;
+        let margin = off(click).abs() - number(clicks.snap) * pitch;
+        *held = if margin.abs() < 1e-5 { None } else { Some(if margin > 0.0 { nearest } else { click }) };
+        let click = (*held)?;
+        let stiffness = number(if is_outside(click) { clicks.wall_stiffness } else { clicks.stiffness });
+        sum += (-stiffness * off(click) - number(clicks.damping) * rate).clamp(-most, most);
     }
     if let Some(spring) = &feel.spring {
         let most = number(spring.max_torque_n_m);
@@ -323,8 +324,8 @@ fn no_change_of_the_feel_makes_a_step_while_a_hand_turns_the_dial() {
     let mut random = Pcg64::seed_from_u64(39);
     let step = f64::from(LET_GO / SETTINGS.rate_hz);
     let limit = 2.8 * 0.02;
-    let (mut largest, mut taken, mut checked, mut click) = (0.0_f64, 0, 0_u32, 0);
-    let (mut left_over, mut clicks) = (0.0_f64, None);
+    let (mut largest, mut taken, mut checked, mut click) = (0.0_f64, 0, 0_u32, Some(0));
+    let (mut left_over, mut clicks, mut was_own) = (0.0_f64, None, true);
     let (from, began) = (device.rig.world.borrow().dial.angle(), device.rig.world.borrow().dial.time());
     for number in 0..valid + spoiled {
         let angle = device.rig.bench.state().witness().angle().expect("it has ticked");
@@ -371,12 +372,15 @@ fn no_change_of_the_feel_makes_a_step_while_a_hand_turns_the_dial() {
             // A spoiled message may choose from the table, and then back, with the clicks nearest to the dial.
             let is_own = usize::from(witness.feel()) == FEELS.len();
             let Some(feel) = witness.own().filter(|_| is_own) else {
-                (left_over, clicks) = (f64::NAN, None);
+                (left_over, clicks, was_own) = (f64::NAN, None, false);
                 continue;
             };
-            // New clicks hold the dial in the detent that was nearest when they came.
+            // New clicks hold the dial in the detent that was nearest when they came. Chosen again, they hold it in the
+            // one that is nearest by the angle of this tick, from which whole turns were taken.
+            let nearest_by = if was_own { from_angle } else { f64::from(witness.angle().expect("it has ticked")) };
+            was_own = true;
             if let Some(new) = feel.clicks.filter(|_| feel.clicks != clicks) {
-                click = ((from_angle / f64::from(new.pitch)).round() as i32).clamp(new.first, new.last);
+                click = Some(((nearest_by / f64::from(new.pitch)).round() as i32).clamp(new.first, new.last));
             }
             clicks = feel.clicks;
             // By its own formula the torque is that of the feel, and what is left over of the one before.
