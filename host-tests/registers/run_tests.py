@@ -24,7 +24,8 @@ TARGET = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
 ENVIRONMENT = ROOT / "target/registers/environment"
 UNICORN = "unicorn>=2.1.4,<2.2"
 # What builds an image of the loop; with more words, that for a host.
-LOOP = ("--body", "capped_box", "build", "--release")
+# Where the tests of a joint and of a touch expect it.
+LOOP = ("--body", "capped_box", "--at", "-50,-50,-60", "build", "--release")
 HOST = (*LOOP, "--features", "host")
 # The highest rate of each board, Hz.
 FASTEST = {"stm32g4": "20000", "pico2": "20000", "teensy41": "40000"}
