@@ -44,7 +44,8 @@ impl Core {
     /// The folders of an Arduino library where its builder looks for this core's.
     pub const fn arduino(self) -> &'static [&'static str] {
         match self {
-            Self::M4 => &["cortex-m4/fpv4-sp-d16-hard", "cortex-m7/fpv5-d16-hard"],
+            // The builder asks for the core's name, or for the chip's on Teensy 4.x.
+            Self::M4 => &["cortex-m4/fpv4-sp-d16-hard", "cortex-m7/fpv5-d16-hard", "imxrt1062/fpv5-d16-hard"],
             Self::M33 => &["cortex-m33/fpv5-sp-d16-hard"],
             Self::Host | Self::Sanitized => &[],
         }

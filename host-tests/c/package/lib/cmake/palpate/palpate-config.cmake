@@ -19,6 +19,13 @@ if(NOT TARGET palpate::palpate)
   add_library(palpate::palpate STATIC IMPORTED)
   set_target_properties(palpate::palpate PROPERTIES
     IMPORTED_LOCATION "${_palpate_found}" INTERFACE_INCLUDE_DIRECTORIES "${_palpate}/src")
+  # Code of palpate needs no executable stack; its object files do not say so to a bare-metal linker.
+  if(_palpate_core MATCHES "^cortex-m")
+    set_target_properties(palpate::palpate PROPERTIES INTERFACE_LINK_OPTIONS "-Wl,-z,noexecstack")
+    if("${CMAKE_C_FLAGS} ${CMAKE_CXX_FLAGS}" MATCHES "-mfloat-abi=soft")
+      message(WARNING "palpate's libraries take floats in registers: compile with -mfloat-abi=hard")
+    endif()
+  endif()
   get_filename_component(_palpate_folder "${_palpate_found}" DIRECTORY)
   if(EXISTS "${_palpate_folder}/libpalpate.so")
     add_library(palpate::shared SHARED IMPORTED)
