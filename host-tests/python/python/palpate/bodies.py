@@ -110,7 +110,9 @@ class Body:
 
         `law` is "second-order", the firmware's, or "certified", the paper's at the certified gain. To compare with, in
         double precision: "newton" (ends as NaN where it leaves the face), "saturated-newton", "projected-newton" and
-        "projected-gradient". It takes at most `most` steps. Raises SettingsError for another law.
+        "projected-gradient". It takes at most `most` steps, all of them where single precision never rests. On rational
+        patches with unequal weights the firmware's law takes more steps than on others: its bounds are wider there.
+        Raises SettingsError for another law.
         """
         place = row("probe", probe, 3)
         return Settled(*self._native.settle(face, place, rows("starts", starts, 2), law, most))
