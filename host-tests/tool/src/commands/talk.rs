@@ -98,16 +98,21 @@ fn talk(line: Box<dyn Line>, button: Option<Button>, knob: Option<&SharedKnob>) 
     let mut console = Console::new(device, &file_of).with_button(button);
     let (lines, by_hand) = (lines(), stdin().is_terminal());
     let mut output = stdout().lock();
+    let mut count = 0;
     writeln!(output, "{}", console.who())?;
     loop {
         if by_hand || !console.is_busy() {
             match lines.try_recv() {
-                Ok(line) => match console.obey(&line?, &mut output) {
-                    Ok(Step::GoesOn) => {}
-                    Ok(Step::Ends) => return Ok(ExitCode::SUCCESS),
-                    Err(error) if by_hand && is_passing(&error) => writeln!(output, "{error:#}")?,
-                    Err(error) => return Err(error),
-                },
+                Ok(line) => {
+                    let line = line?;
+                    count += 1;
+                    match console.obey(&line, &mut output) {
+                        Ok(Step::GoesOn) => {}
+                        Ok(Step::Ends) => return Ok(ExitCode::SUCCESS),
+                        Err(error) if by_hand && is_passing(&error) => writeln!(output, "{error:#}")?,
+                        Err(error) => bail!("{error:#}: line {count}, \"{line}\""),
+                    }
+                }
                 Err(TryRecvError::Disconnected) => return Ok(ExitCode::SUCCESS),
                 Err(TryRecvError::Empty) => {}
             }

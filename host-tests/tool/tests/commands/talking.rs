@@ -58,7 +58,11 @@ fn a_line_that_is_refused_or_not_understood_ends_a_file_with_a_sentence() {
         ("upload 1 no-such.palp", "no-such.palp: No such file or directory (os error 2)"),
     ] {
         let (status, said, complained) = talk(&["--host"], &format!("{line}\nwho\n"));
-        assert_eq!((status, complained.trim()), (Some(2), &*format!("error: {sentence}")), "{line}");
+        assert_eq!(
+            (status, complained.trim()),
+            (Some(2), &*format!("error: {sentence}: line 1, \"{line}\"")),
+            "{line}"
+        );
         assert_eq!(said.matches("a device of 4000 Hz").count(), 1, "{line}: {said}");
     }
 }
