@@ -90,9 +90,16 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         return Ok(ExitCode::SUCCESS);
     }
     let is_built = arguments.cargo.iter().any(|argument| argument == "build" || argument == "run");
-    if let (AnyBoard::Bench(board), true) = (arguments.board, is_built && chosen.is_some()) {
-        let image = toolchain.target_folder()?.join(board.target()).join("release").join(board.name());
-        print!("{}", firmware::report(board, arguments.kind(), &image)?);
+    let is_release = arguments.cargo.iter().any(|argument| argument == "--release");
+    if let (AnyBoard::Bench(board), true) = (arguments.board, is_built && is_release) {
+        let program = arguments.after("--bin").next().unwrap_or(board.name());
+        let image = toolchain.target_folder()?.join(board.target()).join("release").join(program);
+        if !image.exists() {
+            return Ok(ExitCode::SUCCESS);
+        }
+        if chosen.is_some() {
+            print!("{}", firmware::report(board, arguments.kind(), &image)?);
+        }
         println!("image: {}\nto flash it: {}", image.display(), board.flashing(&image));
         if let Some(device) = &arguments.device {
             println!("{}", inside(&devices::own(device)?, arguments.rate));
@@ -107,11 +114,19 @@ impl Arguments {
         self.cargo == ["accept"]
     }
 
+    /// What follows a flag among cargo's arguments, each time.
+    fn after(&self, flag: &str) -> impl Iterator<Item = &str> {
+        self.cargo
+            .iter()
+            .zip(self.cargo.iter().skip(1))
+            .filter(move |(of, _)| *of == flag)
+            .map(|(_, what)| what.as_str())
+    }
+
     /// Which image of a board for the bench is built.
     fn kind(&self) -> Kind {
-        let after = self.cargo.iter().zip(self.cargo.iter().skip(1)).filter(|(flag, _)| *flag == "--features");
         let joined = self.cargo.iter().filter_map(|argument| argument.strip_prefix("--features="));
-        let mut features = after.map(|(_, features)| features.as_str()).chain(joined);
+        let mut features = self.after("--features").chain(joined);
         let is_hosted = features.any(|features| features.split([',', ' ']).any(|feature| feature == "host"));
         if is_hosted { Kind::Hosted } else { Kind::Alone }
     }
