@@ -27,7 +27,8 @@ def write(name: str, folder: Path, number: int | None = None) -> Path:
     if not name.startswith("stm32g4"):
         text = text.replace("counts = 2000.0", "counts = 16384.0")
     if name.startswith("pico2"):
-        bridge = "bridge = { supply = 24.0, resistance = 0.711, back_emf_share = 0.8 }"
+        # Without back-EMF's share a duty is a torque: tests tell by it which motor pulls.
+        bridge = "bridge = { supply = 24.0, resistance = 0.711, back_emf_share = 0.0 }"
         text = text.replace("[joint.motor]\n", f"[joint.motor]\n{bridge}\n")
     folder.mkdir(parents=True, exist_ok=True)
     file = folder / f"{name}.toml"
