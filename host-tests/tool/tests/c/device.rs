@@ -54,7 +54,7 @@ fn the_header_of_a_device_has_its_numbers_in_c() {
         run(gcc.arg("-I").arg(folder.path()).arg(crate::running::library(Core::Host)).args(["-lm", "-o"]).arg(&made));
         let mut printed: Vec<f32> =
             run(&mut Command::new(&made)).lines().map(|word| f32::from_bits(word.parse().expect("a word"))).collect();
-        let settings = shipped.recommended().settings;
+        let settings = own.preset.recommended().settings;
         let recommended = [
             settings.rate_hz,
             settings.stiffness_n_per_m,
