@@ -27,7 +27,7 @@ pub fn test(words: &[String]) -> anyhow::Result<ExitCode> {
 /// Builds the wheel into a folder, and prints path, size and how to install it.
 ///
 /// # Errors
-/// As [`test`].
+/// As [`test()`].
 pub fn wheel(out: Option<&Path>) -> anyhow::Result<ExitCode> {
     let folder = out.map_or_else(
         || Ok(repository::root()?.join("target/python/wheels")),
