@@ -114,7 +114,7 @@ impl Arguments {
         self.cargo == ["accept"]
     }
 
-    /// What follows a flag among cargo's arguments, each time.
+    /// The arguments of cargo that follow a flag, each time.
     fn after(&self, flag: &str) -> impl Iterator<Item = &str> {
         self.cargo
             .iter()
