@@ -52,7 +52,8 @@ pub fn part(which: u32, [a, b, c, d]: [f32; 4]) -> FeelPart {
             snap: SNAP,
             first: c as i32,
             last: d as i32,
-            wall_stiffness: 0.8,
+            // End stops push beside it, and both within what the motor bears.
+            wall_stiffness: 0.4,
             max_force: b,
         })),
         2 => FeelPart::Texture(wave()),

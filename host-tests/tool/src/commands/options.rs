@@ -59,7 +59,7 @@ pub struct SceneOptions {
     #[arg(long)]
     pub damping: Option<f32>,
     /// Maximum force, N; default: recommended for the device, whose own limit applies too
-    #[arg(long, alias = "greatest-force")]
+    #[arg(long)]
     pub max_force: Option<f32>,
     /// Corner frequency of the velocity filter, Hz; default: recommended for the device
     #[arg(long)]
