@@ -1,6 +1,8 @@
 //! Lays the memory map where the linker finds it, and says which body goes into the image.
 
 fn main() {
+    // First: the linker takes the regions that it finds first.
+    palpate_board_build::regions_of("knob", "regions/hosted.x");
     palpate_board_build::regions();
     palpate_board_build::memory_map("memory.x");
     // The whole flash, and RAM but the core-coupled one.

@@ -91,6 +91,11 @@ class Core:
             error, self.error = self.error, None
             raise error
 
+    def stick(self, why: str) -> None:
+        """The program did what no board can go on from, in a hook of a test's."""
+        self.error = self.error or Stuck(why)
+        self.unicorn.emu_stop()
+
     # What Unicorn asks. It would swallow an error in here: `run` raises it.
 
     def _block(self, _uc, _address: int, size: int, _data) -> None:

@@ -6,15 +6,24 @@ of the manual that says so; a register's own is named like the register.
 
 from __future__ import annotations
 
+import unicorn
 from unicorn import arm_const
 
 from chip import Block, Chip
+from core import Stuck
 
 RCC = Block(
     "RCC", 0x4002_1000, CR=0, CFGR=8, PLLCFGR=0xC, AHB1ENR=0x48, AHB2ENR=0x4C, APB1ENR1=0x58, APB2ENR=0x60, CCIPR=0x88,
     CSR=0x94,
 )  # fmt: skip
-FLASH = Block("FLASH", 0x4002_2000, ACR=0, ECCR=0x18, OPTR=0x20)
+FLASH = Block("FLASH", 0x4002_2000, ACR=0, KEYR=8, SR=0x10, CR=0x14, ECCR=0x18, OPTR=0x20)
+# The second bank, a page of it; what opens FLASH_CR, and its bits; a status that says busy ("FLASH_SR").
+BANK_2, BANK_SIZE, PAGE = 0x0804_0000, 0x4_0000, 0x800
+KEYS = [0x4567_0123, 0xCDEF_89AB]
+PG, PER, PNB, BKER, STRT, LOCK, BSY = 1, 1 << 1, 3, 1 << 11, 1 << 16, 1 << 31, 1 << 16
+# Seconds that a page takes to be erased, and a double word to be written, at most (STM32G474 data sheet, "Flash memory
+# characteristics": 24.5 ms, 0.09 ms).
+ERASING, WRITING = 0.025, 0.000_09
 # Bits of ECCR: a word beyond mending, of the second bank.
 ECCD, BK_ECC = 1 << 31, 1 << 21
 # Bits of the option bytes: two banks; start in the second; parity of SRAM is not checked; Stop mode resets nothing, and
@@ -103,6 +112,7 @@ class Stm32g4(Chip):
         RCC.AHB1ENR: 0x100,
         RCC.APB1ENR1: 0x400,
         FLASH.ACR: 0x4_0600,
+        FLASH.CR: 0xC000_0000,
         # As the chip is delivered, but of one bank: parity is not checked.
         FLASH.OPTR: DELIVERED & ~DBANK,
         PWR.CR1: 0x200,
@@ -134,6 +144,8 @@ class Stm32g4(Chip):
         self.slow, self.finishes = 1.0, True
         # What has failed of what SYSCFG connects to the break.
         self.failures = 0
+        # The keys that came, until when flash is busy (cycles), and the first word of a double word.
+        self.keys, self.busy_until, self.half = [], 0, None
         # Whether the break works, and pins that something outside holds high.
         self.ends_widths, self.shorted = True, set()
 
@@ -180,6 +192,8 @@ class Stm32g4(Chip):
             value = 2 | (self.finishes and bool(self.answers)) | min(len(self.answers), 3) << 9
         elif address == SPI1.DR:
             value = int.from_bytes(bytes(self.take_answer() for _ in range(self.machine.width)), "little")
+        elif address == FLASH.SR:
+            value = value & ~BSY | self.is_writing() * BSY
         elif address in (IWDG.SR, PWR.SR2):
             # What was written has been taken; the voltage is there.
             value = 0
@@ -237,6 +251,15 @@ class Stm32g4(Chip):
         elif address == RCC.CSR and value & 1 << 23:
             # RMVF clears the reasons.
             value &= ~(0x1FF << 23)
+        elif address == FLASH.KEYR:
+            self.keys.append(value)
+            if self.keys[-2:] == KEYS:
+                self.keep(FLASH.CR, self.word(FLASH.CR) & ~LOCK)
+        elif address == FLASH.SR:
+            # Flags are cleared by writing 1.
+            value = self.word(address) & ~value
+        elif address == FLASH.CR:
+            value = self.order_flash(value)
         elif address == USART2.TDR:
             self.sent.append(value & 0xFF)
         elif address == SPI1.DR:
@@ -245,6 +268,43 @@ class Stm32g4(Chip):
             for at in range(self.machine.width):
                 self.answers.append(self.exchange(value >> 8 * at & 0xFF))
         return self.keep(address, value)
+
+    def is_writing(self) -> bool:
+        """Whether the second bank is being erased or written."""
+        return self.machine.cycles < self.busy_until
+
+    def order_flash(self, value: int) -> int:
+        """A write to FLASH_CR ("Flash main memory erase sequences"): an erase of a page of the second bank, or none."""
+        if self.word(FLASH.CR) & LOCK or self.is_writing():
+            return self.word(FLASH.CR)
+        if value & STRT:
+            if value & (PER | BKER) != PER | BKER:
+                raise Stuck("an erase of what is no page of the second bank")
+            self.machine.unicorn.mem_write(BANK_2 + (value >> PNB & 0x7F) * PAGE, b"\xff" * PAGE)
+            self.busy_until = self.machine.cycles + int(ERASING * self.RATE * self.PERIOD)
+        return value & ~STRT
+
+    def watch_flash(self) -> None:
+        """From now on the second bank is written as the manual wants it ("Flash main memory programming sequences"), and
+        read only while it is not busy: until then whatever reads it would wait."""
+        for kind, does in ((unicorn.UC_HOOK_MEM_WRITE, self.write_flash), (unicorn.UC_HOOK_MEM_READ, self.read_flash)):
+            self.machine.unicorn.hook_add(kind, does, begin=BANK_2, end=BANK_2 + BANK_SIZE - 1)
+
+    def read_flash(self, _uc, _kind, address: int, _size: int, _value: int, _data) -> None:
+        if self.is_writing():
+            self.machine.stick(f"{address:#x} is read while its bank is busy")
+
+    def write_flash(self, _uc, _kind, address: int, size: int, value: int, _data) -> None:
+        """A double word, which was erased, in two writes one after the other."""
+        follows = self.half is not None and address == self.half + 4
+        is_first = self.half is None and not address & 7
+        is_erased = self.machine.memory(address, 4) == b"\xff" * 4
+        is_open = self.word(FLASH.CR) & (PG | LOCK) == PG and not self.is_writing()
+        if size != 4 or not (is_first or follows) or not is_erased or not is_open:
+            self.machine.stick(f"{address:#x} is written in a way that flash does not take")
+        self.half = address if is_first else None
+        if follows:
+            self.busy_until = self.machine.cycles + int(WRITING * self.RATE * self.PERIOD)
 
     def is_counting(self) -> bool:
         """It runs, and is not divided."""

@@ -6,7 +6,7 @@ import struct
 import zlib
 from dataclasses import dataclass
 
-HELLO, RECORD = 0, 1
+HELLO, RECORD, ANSWER, DIAL = 0, 1, 3, 7
 POWER_ON, PIN, SOFTWARE, WATCHDOG, BROWN_OUT, PANIC, EXCEPTION, TOOL = 0, 1, 2, 3, 4, 6, 7, 8
 CALIBRATE, ARMED, RUNNING, FAULT = 1, 2, 3, 4
 FRAME_LOST, LINK_LOST, DRIVE, MAGNET, FROZEN = 1, 8, 12, 21, 22
@@ -52,16 +52,20 @@ def framed(message: bytes) -> bytes:
     return b"".join(bytes([len(block) + 1]) + block for block in blocks) + b"\0"
 
 
-def records(line: bytes) -> list[Record]:
-    """The records of a line; what comes after the last whole frame is left."""
+def messages(line: bytes) -> list[bytes]:
+    """The messages of a line, checked; what comes after the last whole frame is left."""
     found = []
     for frame in line.split(b"\0")[:-1]:
         message = unstuffed(frame)
         body, checksum = message[:-4], int.from_bytes(message[-4:], "little")
         assert zlib.crc32(body) == checksum, "a frame of the image is damaged"
-        if body[0] == RECORD:
-            found.append(record(body[1:]))
+        found.append(body)
     return found
+
+
+def records(line: bytes) -> list[Record]:
+    """The records among them."""
+    return [record(body[1:]) for body in messages(line) if body[0] == RECORD]
 
 
 def record(body: bytes) -> Record:

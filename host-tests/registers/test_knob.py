@@ -4,26 +4,41 @@ which is driven as soon as the button is pressed."""
 from __future__ import annotations
 
 import math
+import re
+import struct
 import unittest
 
 import telemetry
+import unicorn
 from at_resets import AtResets
 from at_stops import AtStops
 from bench import A_WHILE
 from in_set_up import InSetUp
-from machine import Machine
+from machine import NMI, Machine
 from on_stack import OnStack
 from shield import Shield
-from stm32g4 import GPIO, PWR, SPI1
+from stm32g4 import BANK_2, BANK_SIZE, BK_ECC, DBANK, DELIVERED, ECCD, FLASH, GPIO, IWDG, FEEDS, PAGE, PWR, SPI1, STRT
 from with_angle_sensors import WithAngleSensors
+from with_host import HELLO, WIRE
 
 # Ticks in which the alignment's field comes up, and in which it goes round.
 LED, TURN = 800, 2_200
 
 
+# A part of a feel that this motor bears, a damping of 0.1 mN·m·s/rad, and the page's own frame to keep the feel.
+PART = telemetry.framed(bytes([6, 0xAF, 2, 12, 5]) + struct.pack("<f", 1e-4))
+KEEP = bytes.fromhex(re.search(r"## HostMessage: keep the feel\n.*?Frame: `(.*?)`", WIRE.read_text(), re.DOTALL)[1])
+# The host's own feel comes after the table's; what became of the stored one (docs/reference/wire.md, "Dial").
+OWN, NOTHING_KEPT, USED, REFUSED = 6, 0, 1, 2
+# Why nothing is kept (docs/reference/wire.md, "Answer"): no flash, the motor is driven.
+NO_FLASH, DRIVEN = 0, 2
+
+
 class Knob(InSetUp, OnStack, WithAngleSensors, AtResets, AtStops, unittest.TestCase):
     BOARD, NAME = Shield, "knob"
     DRIVING, HAS_LIGHT = telemetry.CALIBRATE, False
+    # Erasing a page of flash takes up to 25 ms.
+    WATCHDOG = 0.040
 
     @staticmethod
     def home(machine: Machine) -> None:
@@ -62,6 +77,121 @@ class Knob(InSetUp, OnStack, WithAngleSensors, AtResets, AtStops, unittest.TestC
             a, b, _ = machine.chip.currents()
             amplitude = math.hypot(a, (a + 2 * b) / math.sqrt(3))
             self.assertAlmostEqual(amplitude, 0.03 / 0.0844 * math.sqrt(2 / 3), delta=0.1)
+
+    # A feel that is kept.
+
+    def with_flash(self, page: bytes = b"", options: int = DELIVERED) -> Machine:
+        """A board at its first tick whose flash has two banks, the second erased but for this."""
+        machine = self.new_machine()
+        machine.unicorn.mem_write(BANK_2, page + b"\xff" * (BANK_SIZE - len(page)))
+        machine.reset(power=True)
+        machine.chip.keep(FLASH.OPTR, options)
+        machine.chip.watch_flash()
+        machine.set_up()
+        return machine
+
+    def says(self, machine: Machine, frame: bytes, ticks: int = A_WHILE) -> list[bytes]:
+        """What the board answers to a frame."""
+        before = len(self.told(machine, telemetry.ANSWER))
+        machine.chip.received += frame
+        machine.ticks(ticks)
+        return self.told(machine, telemetry.ANSWER)[before:]
+
+    def told(self, machine: Machine, kind: int) -> list[bytes]:
+        """What the board has said of a kind."""
+        return [message for message in telemetry.messages(bytes(machine.chip.sent)) if message[0] == kind]
+
+    def kept(self, machine: Machine) -> tuple[int, int]:
+        """The active feel, and what became of the stored one."""
+        self.says(machine, HELLO)
+        dial = self.told(machine, telemetry.DIAL)[-1]
+        # The last bytes: feel, detent, end stop, kept.
+        return dial[-4], dial[-1]
+
+    def confirmed(self, machine: Machine) -> bytes:
+        """A person confirms; the answer."""
+        self.assertEqual(self.says(machine, KEEP), [], "it waits for a person")
+        machine.chip.press(enable=True)
+        machine.ticks(2_100)
+        self.assertNotIn(STRT, [entry.written & STRT for entry in machine.log.writes(FLASH.CR)], "not while it is held")
+        machine.chip.press(enable=False)
+        # Released, and the page is erased.
+        [answer] = self.says(machine, b"", 3 * A_WHILE)
+        return answer
+
+    def test_feel_that_is_kept_is_used_after_power_was_off(self) -> None:
+        # All that runs is in the first bank: none of it waits for the second.
+        self.assertLessEqual(max(load + len(data) for load, data in self.image.segments if load < 0x1000_0000), BANK_2)
+        machine = self.with_flash()
+        self.assertEqual(self.kept(machine), (0, NOTHING_KEPT))
+        [answer] = self.says(machine, PART)
+        self.assertEqual(answer[-1], 0, "it is taken")
+        answer = self.confirmed(machine)
+        self.assertEqual(answer[-1], 0, "it is kept")
+        self.assertEqual(machine.memory(BANK_2, 4), b"PFL1")
+        self.assert_never_high(machine)
+        self.assertNotEqual(self.last(machine).phase, telemetry.FAULT, "no tick was late, or took too long")
+        # The watchdog's clock may be a tenth fast.
+        fed = [entry.time for entry in machine.log.writes(IWDG.KR) if entry.written == FEEDS]
+        longest = max(after - before for before, after in zip(fed, fed[1:])) / (4_000 * machine.chip.PERIOD)
+        print(f"{self.NAME}: the watchdog waits for {longest * 1e3:.1f} ms at most while a feel is kept")
+        self.assertLess(longest, 0.9 * self.WATCHDOG)
+
+        # The power is off: nothing is left of RAM.
+        machine = self.with_flash(machine.memory(BANK_2, PAGE))
+        self.assertEqual(self.kept(machine), (OWN, USED))
+        self.assertTrue(self.drive_again(machine))
+
+    def test_feel_is_not_kept_while_the_button_is_held(self) -> None:
+        machine = self.with_flash()
+        self.says(machine, HELLO)
+        self.says(machine, PART)
+        machine.chip.press(enable=True)
+        machine.ticks(A_WHILE)
+        self.assertTrue(self.drives(machine))
+        [answer] = self.says(machine, KEEP)
+        self.assertEqual(answer[-1], DRIVEN)
+        self.assertTrue(self.drives(machine))
+        self.assertEqual(machine.log.writes(FLASH.KEYR), [])
+
+    def test_feel_that_is_damaged_or_of_another_version_leaves_the_table(self) -> None:
+        page = self.recorded()
+        self.assertEqual(self.kept(self.with_flash(page)), (OWN, USED))
+        damaged = page[:20] + bytes([page[20] ^ 1]) + page[21:]
+        for page in (damaged, b"PFL0" + page[4:], b"\0" * len(page)):
+            self.assertEqual(self.kept(self.with_flash(page)), (0, REFUSED))
+
+    def test_feel_that_cannot_be_read_leaves_the_table(self) -> None:
+        # The power went while it was erased: the chip says so by an NMI ("Error code correction").
+        machine = self.new_machine()
+        machine.unicorn.mem_write(BANK_2, b"\xff" * BANK_SIZE)
+        machine.reset(power=True)
+        machine.chip.keep(FLASH.OPTR, DELIVERED)
+        hook = machine.unicorn.hook_add(
+            unicorn.UC_HOOK_MEM_READ, lambda uc, *_: uc.emu_stop(), begin=BANK_2, end=BANK_2 + PAGE - 1
+        )
+        machine.run(self.LONG)
+        machine.unicorn.hook_del(hook)
+        machine.chip.keep(FLASH.ECCR, ECCD | BK_ECC)
+        machine.exception(NMI)
+        machine.set_up()
+        self.assertEqual(self.kept(machine), (0, REFUSED))
+        self.assertTrue(self.drive_again(machine))
+
+    def test_chip_of_one_bank_keeps_nothing(self) -> None:
+        machine = self.with_flash(options=DELIVERED & ~DBANK)
+        self.says(machine, HELLO)
+        self.says(machine, PART)
+        [answer] = self.says(machine, KEEP)
+        self.assertEqual(answer[-1], NO_FLASH)
+
+    def recorded(self) -> bytes:
+        """The page of a kept feel."""
+        machine = self.with_flash()
+        self.says(machine, HELLO)
+        self.says(machine, PART)
+        self.confirmed(machine)
+        return machine.memory(BANK_2, PAGE)
 
     # Currents.
 

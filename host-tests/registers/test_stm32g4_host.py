@@ -11,13 +11,12 @@ from in_set_up import InSetUp
 from machine import NMI, Machine
 from nucleo import Nucleo
 from on_stack import OnStack
-from stm32g4 import BFB2, BK_ECC, DBANK, DELIVERED, ECCD, FLASH
+from stm32g4 import BANK_2, BANK_SIZE, BFB2, BK_ECC, DBANK, DELIVERED, ECCD, FLASH
 from supervised import Supervised
 from with_host import WithHost
 from with_wiring import WithWiring
 
-# The second bank of the flash, and its last page.
-BANK_2, BANK_SIZE = 0x0804_0000, 0x4_0000
+# The last page of the second bank of the flash.
 CALIBRATION = BANK_2 + BANK_SIZE - 0x800
 
 

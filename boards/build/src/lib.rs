@@ -50,6 +50,18 @@ pub fn regions() {
     println!("cargo::rerun-if-changed={file}");
 }
 
+/// Lays other regions where the linker finds them for one program of a package: before [`memory_map`].
+///
+/// # Panics
+/// As [`memory_map`].
+pub fn regions_of(program: &str, file: &str) {
+    let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR")).join(program);
+    fs::create_dir_all(&out).expect("OUT_DIR can be written");
+    fs::copy(file, out.join("regions.x")).unwrap_or_else(|error| panic!("{file}: {error}"));
+    println!("cargo::rustc-link-arg-bin={program}=-L{}", out.display());
+    println!("cargo::rerun-if-changed={file}");
+}
+
 /// The board's own body: one patch, or with the feature `host`, which wants a whole body, the capped box.
 #[must_use]
 pub fn own_body() -> &'static str {

@@ -2,6 +2,7 @@
 
 #![no_std]
 
+pub mod flash;
 mod supply;
 mod ticks;
 

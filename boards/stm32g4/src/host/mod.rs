@@ -4,21 +4,18 @@
 #[cfg(feature = "accept")]
 compile_error!("an image that is accepted takes no host's orders: one feature or the other");
 
-mod flash;
-
-use core::sync::atomic::{AtomicBool, Ordering};
 use palpate::body::{Body, TickLimit};
 use palpate::commission::{Gains, Wiring};
 use palpate::device::Device;
 use palpate::scene::Slot;
 use palpate::wire::Upload;
-use palpate_bench::cortex::{HandOver, bearing_nmi};
+use palpate_bench::cortex::HandOver;
 use palpate_bench::store::{Built, Found, Keeping, Kept, KeptCalibration, Region};
 use palpate_bench::{ArmServo, Felt, Idle, Offers, OneSlot, Uploads as _, arm_servo, one_slot};
+use palpate_stm32g4::flash::{BODY_BYTES, Bank2, START, watched};
 use static_cell::StaticCell;
 use stm32g4xx_hal::stm32::FLASH;
 
-use self::flash::{BODY_BYTES, Bank2, START};
 use crate::body::own::{DEVICE, Mechanism, PROTECTION, REFERENCE, WIRING};
 use crate::body::{EFFORT, SAFETY, SETTINGS, tables};
 
@@ -127,26 +124,4 @@ impl Offers for Ends {
             None => idle,
         }
     }
-}
-
-/// Whether a word of the second bank could not be read: the power went while it was written or erased.
-static DAMAGED: AtomicBool = AtomicBool::new(false);
-
-/// Does something in which such words may be read, and says whether any was.
-fn watched<T>(work: impl FnOnce() -> T) -> (T, bool) {
-    let done = bearing_nmi(is_damage, work);
-    (done, DAMAGED.swap(false, Ordering::SeqCst))
-}
-
-/// The chip tells of a word whose checksum is beyond mending by an NMI (RM0440, 3.3.4). Any other one is a stop.
-fn is_damage() -> bool {
-    // SAFETY: reads a register, and clears a flag by writing it as one.
-    let flash = unsafe { &*FLASH::ptr() };
-    let eccr = flash.eccr().read();
-    let is_word = eccr.eccd().bit_is_set() && eccr.bk_ecc().bit_is_set();
-    if is_word {
-        DAMAGED.store(true, Ordering::SeqCst);
-        flash.eccr().modify(|_, w| w.eccd().set_bit());
-    }
-    is_word
 }

@@ -2,14 +2,16 @@
 //! the first, goes on.
 
 use core::ptr;
+use core::sync::atomic::{AtomicBool, Ordering};
 use cortex_m::interrupt;
 use embedded_storage::nor_flash::{ErrorType, NorFlash, NorFlashError, NorFlashErrorKind, ReadNorFlash};
+use palpate_bench::cortex::bearing_nmi;
 use stm32g4xx_hal::stm32::FLASH;
 use stm32g4xx_hal::stm32::flash::RegisterBlock;
 
 /// The start of the second of two banks.
 pub const START: usize = 0x0804_0000;
-/// Its bytes for a body: all but the last page, which is for a calibration.
+/// Its bytes for a body, or for a knob's feel: all but the last page, which is for a calibration.
 pub const BODY_BYTES: usize = 256 * 1024 - PAGE;
 
 const PAGE: usize = 2_048;
@@ -43,8 +45,8 @@ impl NorFlashError for Refused {
 const OTHER: Refused = Refused(NorFlashErrorKind::Other);
 
 impl Bank2 {
-    /// The bank's part for a body and that for a calibration, if the chip's option bytes have two banks and start the
-    /// program in the first: else it would be the program's own bank.
+    /// The bank's part for a body or a feel and that for a calibration, if the chip's option bytes have two banks and
+    /// start the program in the first: else it would be the program's own bank.
     pub fn try_new(flash: FLASH) -> Option<[Self; 2]> {
         let options = flash.optr().read();
         let is_ours = options.dbank().is_dual_bank_mode() && options.bfb2().bit_is_clear();
@@ -166,4 +168,26 @@ impl NorFlash for Bank2 {
         check(offset as usize, bytes.len(), DOUBLE_WORD, self.bytes)?;
         self.write_all(offset as usize, bytes)
     }
+}
+
+/// Whether a word of the second bank could not be read: the power went while it was written or erased.
+static DAMAGED: AtomicBool = AtomicBool::new(false);
+
+/// Does something in which such words may be read, and says whether any was. For main, before there are ticks.
+pub fn watched<T>(work: impl FnOnce() -> T) -> (T, bool) {
+    let done = bearing_nmi(is_damage, work);
+    (done, DAMAGED.swap(false, Ordering::SeqCst))
+}
+
+/// The chip tells of a word whose checksum is beyond mending by an NMI (RM0440, 3.3.4). Any other one is a stop.
+fn is_damage() -> bool {
+    // SAFETY: reads a register, and clears a flag by writing it as one.
+    let flash = unsafe { &*FLASH::ptr() };
+    let eccr = flash.eccr().read();
+    let is_word = eccr.eccd().bit_is_set() && eccr.bk_ecc().bit_is_set();
+    if is_word {
+        DAMAGED.store(true, Ordering::SeqCst);
+        flash.eccr().modify(|_, w| w.eccd().set_bit());
+    }
+    is_word
 }
