@@ -7,7 +7,7 @@ use crate::model::{of_baked, of_file};
 use crate::modes::Modes;
 use crate::pair::Pair;
 use crate::refusal::Refusal;
-use crate::settle::{Law, settle, settle_baseline};
+use crate::settle::{Ends, Law, settle, settle_baseline};
 use crate::tracker::Tracker;
 use crate::{evaluate, patches};
 use glam::DVec3;
@@ -155,18 +155,18 @@ impl Body {
         starts: PyReadonlyArray2<'py, f64>,
         law_name: &str,
         most: u32,
-    ) -> PyResult<(Table<'py, f32>, Line<'py, u32>)> {
+    ) -> PyResult<(Table<'py, f32>, Line<'py, u32>, Line<'py, bool>)> {
         let starts = rows::<2>("starts", &starts)?;
         usable("probe", &[probe])?;
         let (law, patch, place) = (Law::named(law_name)?, &self.face(face)?.patch, self.local(probe));
-        let (ends, steps) = py.detach(|| match law {
+        let (ends, steps, rests): Ends = py.detach(|| match law {
             Law::Controller(controller) => settle(patch, &controller, place, &starts, most),
             Law::Baseline(method) => {
                 let surface = &self.baked.faces[face].surface;
                 settle_baseline(surface, method, DVec3::from_array(probe) - self.middle(), &starts, most)
             }
         });
-        Ok((table(py, ends), line(py, steps)))
+        Ok((table(py, ends), line(py, steps), line(py, rests)))
     }
 
     fn tracker(slf: Py<Self>, law: &str, start: Option<(u16, f32, f32)>) -> PyResult<Tracker> {

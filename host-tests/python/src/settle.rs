@@ -11,17 +11,14 @@ use palpate_truth::baselines::{Advance, Baseline, Errors, Method};
 
 /// Steps in a row without progress after which a witness point rests.
 const RESTS: u32 = 8;
+/// Parameters at the end, steps, and whether it rests; a row a start.
+pub type Ends = (Vec<[f32; 2]>, Vec<u32>, Vec<bool>);
+
 /// The period of a step, s. It matters to no law here: both take the gain that is certified.
 const PERIOD: f32 = 1e-3;
 
-/// Where each start ends, and after how many steps; `most` of them at most.
-pub fn settle(
-    patch: &SplinePatch<'_>,
-    controller: &Controller,
-    probe: Vec3,
-    starts: &[[f64; 2]],
-    most: u32,
-) -> (Vec<[f32; 2]>, Vec<u32>) {
+/// Where each start ends, after how many steps, and whether it rests there; `most` steps at most.
+pub fn settle(patch: &SplinePatch<'_>, controller: &Controller, probe: Vec3, starts: &[[f64; 2]], most: u32) -> Ends {
     let end = |[u, v]: &[f64; 2]| {
         let mut at = Witness::at(patch, *u as f32, *v as f32);
         let (mut steps, mut still) = (0, 0);
@@ -31,9 +28,9 @@ pub fn settle(
             steps += 1;
             still = if step.outcome == Outcome::AtRest || before == at.parameters { still + 1 } else { 0 };
         }
-        (at.parameters, steps - still)
+        (at.parameters, steps - still, still == RESTS)
     };
-    starts.iter().map(end).unzip()
+    starts.iter().map(end).collect()
 }
 
 /// A law on one face: one of the firmware's controllers, or a method in double precision to compare them with.
@@ -65,26 +62,26 @@ impl Law {
     }
 }
 
-/// Where a baseline ends from each start, and after how many steps; not a number where it left the patch.
-pub fn settle_baseline(
-    patch: &NurbsPatch,
-    method: Method,
-    probe: DVec3,
-    starts: &[[f64; 2]],
-    most: u32,
-) -> (Vec<[f32; 2]>, Vec<u32>) {
+/// Where a baseline ends from each start, likewise; not a number where it left the patch.
+pub fn settle_baseline(patch: &NurbsPatch, method: Method, probe: DVec3, starts: &[[f64; 2]], most: u32) -> Ends {
     let baseline = Baseline::new(patch, method, Errors::Covariant);
     let end = |start: &[f64; 2]| {
         let (mut at, mut steps) = (start.map(|parameter| parameter.clamp(0.0, 1.0)), 0);
+        let mut still = 0;
         while steps < most {
             match baseline.step(at, probe) {
-                Advance::To(next) => at = next,
-                Advance::Out(_) => return ([f32::NAN; 2], steps),
-                Advance::Nowhere => break,
+                // What single precision does not show is no progress here, as for the firmware's laws.
+                Advance::To(next) => {
+                    let is_still = next.map(|parameter| parameter as f32) == at.map(|parameter| parameter as f32);
+                    still = if is_still { still + 1 } else { 0 };
+                    at = next;
+                }
+                Advance::Out(_) => return ([f32::NAN; 2], steps, false),
+                Advance::Nowhere => return (at.map(|parameter| parameter as f32), steps, true),
             }
             steps += 1;
         }
-        (at.map(|parameter| parameter as f32), steps)
+        (at.map(|parameter| parameter as f32), steps, still >= RESTS)
     };
-    starts.iter().map(end).unzip()
+    starts.iter().map(end).collect()
 }

@@ -84,6 +84,7 @@ def test_the_baselines_end_where_the_surface_is_met_at_a_right_angle(law):
     probe = spline.evaluate(at)[0] + 0.004 * normal / np.linalg.norm(normal)
     settled = body.settle(0, probe, at + 0.04, law=law, most=5000)
     assert np.abs(settled.parameters - at).max() < 1e-5
+    assert settled.rests.all()
     # Quadratic: five steps are as near; linear: not.
     near = np.abs(body.settle(0, probe, at + 0.04, law=law, most=5).parameters - at).max()
     assert (near > 1e-5) == (law == "projected-gradient")
@@ -92,7 +93,9 @@ def test_the_baselines_end_where_the_surface_is_met_at_a_right_angle(law):
 def test_newton_may_leave_the_face_and_an_unknown_law_is_named():
     body = palpate.Body.bake(of_splinepy(False)[0])
     beyond = np.array([0.2, 0.02, 0.0])
-    assert np.isnan(body.settle(0, beyond, [[0.9, 0.5]], law="newton").parameters).all()
+    left = body.settle(0, beyond, [[0.9, 0.5]], law="newton")
+    assert np.isnan(left.parameters).all()
+    assert not left.rests.any()
     assert body.settle(0, beyond, [[0.9, 0.5]], law="saturated-newton").parameters[0, 0] == 1
     with pytest.raises(palpate.SettingsError, match="steepest.*projected-gradient"):
         body.settle(0, beyond, [[0.9, 0.5]], law="steepest")

@@ -80,10 +80,13 @@ class Settled(NamedTuple):
 
     parameters : (n, 2) float32 -- (u, v) at the end.
     steps : (n,) uint32 -- steps until it rested, or as many as were allowed.
+    rests : (n,) bool -- whether it rested: its last eight steps did not move it in single precision, or there was none
+        to take, at a minimum or where Newton's matrix is singular. False where the steps ran out before.
     """
 
     parameters: NDArray[np.float32]
     steps: NDArray[np.uint32]
+    rests: NDArray[np.bool_]
 
 
 class Apart(NamedTuple):
