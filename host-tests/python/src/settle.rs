@@ -11,11 +11,11 @@ use palpate_truth::baselines::{Advance, Baseline, Errors, Method};
 
 /// Steps in a row without progress after which a witness point rests.
 const RESTS: u32 = 8;
-/// Parameters at the end, steps, and whether it rests; a row a start.
-pub type Ends = (Vec<[f32; 2]>, Vec<u32>, Vec<bool>);
-
 /// The period of a step, s. It matters to no law here: both take the gain that is certified.
 const PERIOD: f32 = 1e-3;
+
+/// Parameters at the end, steps, and whether it rests; a row a start.
+pub type Ends = (Vec<[f32; 2]>, Vec<u32>, Vec<bool>);
 
 /// Where each start ends, after how many steps, and whether it rests there; `most` steps at most.
 pub fn settle(patch: &SplinePatch<'_>, controller: &Controller, probe: Vec3, starts: &[[f64; 2]], most: u32) -> Ends {

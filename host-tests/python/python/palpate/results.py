@@ -80,8 +80,8 @@ class Settled(NamedTuple):
 
     parameters : (n, 2) float32 -- (u, v) at the end.
     steps : (n,) uint32 -- steps until it rested, or as many as were allowed.
-    rests : (n,) bool -- whether it rested: its last eight steps did not move it in single precision, or there was none
-        to take, at a minimum or where Newton's matrix is singular. False where the steps ran out before.
+    rests : (n,) bool -- whether its last eight steps did not move it in single precision, which takes eight. A method in
+        double precision also rests where it has no step to take: at a minimum, or where Newton's matrix is singular.
     """
 
     parameters: NDArray[np.float32]

@@ -15,7 +15,7 @@ pub(super) const TABLE: &[Failure] = &[
         [
             "memory",
             "the program hung",
-            "watchdog of 40 ms with a host, 20 ms without, its clock up to a tenth slow; reset reason",
+            "watchdog of 20 ms, 40 with a host or a knob, its clock up to a tenth slow; reset reason",
             "test_watchdog_is_fed_only_while_ticks_go_on",
         ],
         45.0,
