@@ -61,7 +61,7 @@ fn write(out: &Path, part: &str) -> anyhow::Result<()> {
     for licence in ["LICENSE-APACHE", "LICENSE-MIT"] {
         copy(&root.join(licence), &out.join(licence))?;
     }
-    for example in ["Feel", "host"] {
+    for example in ["Feel", "Servo", "host"] {
         save(&out.join("examples").join(example).join("part.h"), part)?;
     }
     for device in &DEVICES {

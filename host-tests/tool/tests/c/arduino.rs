@@ -1,6 +1,8 @@
-//! The package for C: the sketch links with each of its libraries, and the loop of a host rests where two springs do.
+//! The package for C: the sketches link with each of its libraries, the loop of a host rests where two springs do, and
+//! the servo loop has the bits of Rust.
 
 use crate::running::{alone, is_wanted, run};
+use crate::servo;
 use clap::Parser;
 use palpate_tool::commands::c_library;
 use palpate_tool::in_c::{self, Core};
@@ -15,8 +17,14 @@ struct Command {
 /// As much of the Arduino core as the sketch uses.
 const ARDUINO: &str = "#pragma once
 #include <math.h>
+#include <stdint.h>
+#define LOW 0
+#define INPUT_PULLUP 2
 struct Port { void begin(long) {} void println(const char *) {} void println(float) {} };
 static Port Serial;
+inline int digitalRead(int) { return 1; }
+inline void pinMode(int, int) {}
+inline uint32_t micros() { return 0; }
 void setup();
 void loop();
 ";
@@ -62,32 +70,45 @@ fn the_examples_of_the_package_link_with_its_libraries_and_the_loop_of_a_host_re
         let said = run(std::process::Command::new(&program).env("LD_LIBRARY_PATH", &host));
         // 300 N/m of the hand, drawn 10 mm inside, against 500 N/m of the wall: 3.75 mm and 1.875 N.
         assert_eq!(said, "depth 3.7500 mm, force 1.8750 N\n", "{library}");
+        let mut gcc = in_c::compiler(Core::Host, "gcc").expect("in the repository");
+        gcc.args(["-std=c99", "-pedantic", "-I"])
+            .arg(out.join("src"))
+            .arg(out.join("examples/Servo/pc/main.c"))
+            .arg(host.join(library));
+        run(gcc.args(["-lm", "-o"]).arg(&program));
+        let said = run(std::process::Command::new(&program).env("LD_LIBRARY_PATH", &host));
+        assert_eq!(said, servo::in_rust(), "{library}");
     }
 
     fs::write(folder.path().join("Arduino.h"), ARDUINO).expect("a header");
-    let main = folder.path().join("main.cpp");
-    let sketch = out.join("examples/Feel/Feel.ino");
-    fs::write(
-        &main,
-        format!(
-            "#include <Arduino.h>\n#include \"{}\"\nint main() {{ setup(); for (;;) loop(); }}\n",
-            sketch.display()
-        ),
-    )
-    .expect("a program");
     for core in [Core::M4, Core::M33] {
         for place in core.arduino() {
-            let object = folder.path().join("main.o");
-            let mut gcc = in_c::compiler(core, "g++").expect("in the repository");
-            gcc.args(["-std=c++17", "-fno-exceptions", "-fno-rtti", "-fno-threadsafe-statics", "-ffunction-sections"]);
-            gcc.arg("-I").arg(folder.path()).arg("-I").arg(out.join("src")).arg("-c").arg(&main);
-            run(gcc.arg("-o").arg(&object));
-            // Linked as C: the library of C++ is a large package that nothing here needs.
-            let mut gcc = in_c::compiler(core, "gcc").expect("in the repository");
-            gcc.args(["-Wl,--gc-sections", "--specs=nosys.specs"]).arg(&object);
-            gcc.arg("-L").arg(out.join("src").join(place)).args(["-lpalpate", "-lm", "-o"]);
-            run(gcc.arg(folder.path().join("sketch.elf")));
-            println!("the sketch links for {place}");
+            for sketch in ["Feel", "Servo"] {
+                let from = out.join("examples").join(sketch);
+                let main = folder.path().join("main.cpp");
+                let sketch = from.join(format!("{sketch}.ino"));
+                fs::write(
+                    &main,
+                    format!("#include <Arduino.h>\n#include {sketch:?}\nint main() {{ setup(); for (;;) loop(); }}\n"),
+                )
+                .expect("a program");
+                let object = folder.path().join("main.o");
+                let mut gcc = in_c::compiler(core, "g++").expect("in the repository");
+                gcc.args(["-std=c++17", "-fno-exceptions", "-fno-rtti", "-fno-threadsafe-statics"]);
+                gcc.arg("-ffunction-sections").arg("-I").arg(folder.path()).arg("-I").arg(out.join("src"));
+                run(gcc.arg("-c").arg(&main).arg("-o").arg(&object));
+                // Linked as C: the library of C++ is a large package that nothing here needs.
+                let mut gcc = in_c::compiler(core, "gcc").expect("in the repository");
+                gcc.args(["-Wl,--gc-sections", "--specs=nosys.specs", "-std=c99", "-I"])
+                    .arg(out.join("src"))
+                    .arg(&object);
+                if from.join("servo.c").exists() {
+                    gcc.arg(from.join("servo.c"));
+                }
+                gcc.arg("-L").arg(out.join("src").join(place)).args(["-lpalpate", "-lm", "-o"]);
+                run(gcc.arg(folder.path().join("sketch.elf")));
+            }
+            println!("the sketches link for {place}");
         }
     }
 }

@@ -11,3 +11,4 @@ mod header;
 mod homing;
 mod rendering;
 mod running;
+mod servo;

@@ -1,0 +1,29 @@
+// A board for servo.c. Write your encoders and motors into the first four functions; until then the loop stops with a
+// fault. A timer's interrupt is steadier than loop(): IntervalTimer on a Teensy.
+#include <palpate.h>
+#include "board.h"
+
+int board_counts(int32_t *) { return 0; }
+int board_enable() { return digitalRead(2) == LOW; } // a button to ground, held
+void board_drive(const int32_t *) {}
+void board_off() {}
+
+static float rate;
+
+void setup() {
+  board_off();
+  pinMode(2, INPUT_PULLUP);
+  Serial.begin(115200);
+  const palpate_status status = servo_start(&rate);
+  if (status == PALPATE_OK) return;
+  while (true) Serial.println(palpate_status_text(status));
+}
+
+void loop() {
+  static uint32_t next = micros(), ticks = 0;
+  const uint32_t period = (uint32_t)(1e6f / rate), late = micros() - next;
+  if ((int32_t)late < 0) return;
+  servo_tick(late > period);
+  next = late > period ? micros() + period : next + period;
+  if (++ticks % 4000 == 0) Serial.println(servo_fault());
+}
