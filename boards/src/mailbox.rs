@@ -19,8 +19,8 @@ pub struct Mailbox {
     marked: Letter<5>,
     /// An order and its number, in 64 bytes: the longest takes 61.
     order: Letter<16>,
-    /// Its outcome: the longest takes 7 bytes.
-    answer: Letter<2>,
+    /// Its outcome: the longest takes 15 bytes.
+    answer: Letter<4>,
     /// The longest takes 53 bytes.
     view: Letter<14>,
     /// The longest takes 33 bytes.

@@ -7,6 +7,7 @@ use crate::patch::{SecondDerivatives, SurfacePoint};
 use crate::render::{Feel, FeelError, FeelPart, wound};
 use crate::track::{BoundaryMode, Contact, Controller, Probe, Witness};
 use core::f32::consts::TAU;
+use core::fmt;
 
 /// The feel of a dial: a table of feels in flash, switched while it runs ([`super::Event::Chosen`]).
 ///
@@ -50,7 +51,7 @@ pub struct Knob {
 }
 
 /// Which number of a knob is refused. In a `static` it is a compile error.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "wire", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
@@ -59,39 +60,86 @@ pub enum KnobError {
     Feels,
     /// A feel makes no sense by itself.
     Feel(FeelError),
-    /// A feel is stiffer than the device's limit.
-    Stiffness,
-    /// A feel has more damping than the device's limit.
-    Damping,
-    /// A feel has more torque than the device.
-    Torque,
+    /// The parts of a feel are together stiffer than the device's limit.
+    Stiffness {
+        /// The sum of the parts.
+        asked_n_m_per_rad: f32,
+        /// Of the device.
+        limit_n_m_per_rad: f32,
+    },
+    /// They damp more than the device's limit.
+    Damping {
+        /// The sum of the parts.
+        asked_n_m_s_per_rad: f32,
+        /// Of the device.
+        limit_n_m_s_per_rad: f32,
+    },
+    /// They have more torque than the motor.
+    Torque {
+        /// The sum of the parts.
+        asked_n_m: f32,
+        /// Of the motor.
+        limit_n_m: f32,
+    },
     /// The release rate is not positive and finite.
     LetGo,
-    /// The dial is farther than [`MAX_RETURN_RAD`] from where a part of the host's would take it.
-    Far,
+    /// A part of the host's would take the dial further than [`MAX_RETURN_RAD`].
+    Far {
+        /// How far.
+        asked_rad: f32,
+    },
+    /// A stored feel is restored before the first tick only.
+    Late,
 }
 
 /// How far a part of a feel that a host sets may take the dial, radians: an eighth of a turn.
 pub const MAX_RETURN_RAD: f32 = TAU / 8.0;
 
 impl KnobError {
-    /// The same as `Display`, for a panic at compile time.
+    /// The refusal without its numbers, for a panic at compile time.
     pub const fn message(self) -> &'static str {
         match self {
             Self::Feels => "a knob has 1 to 255 feels",
             Self::Feel(error) => error.message(),
-            Self::Stiffness => "a feel is stiffer than the device's maximum stiffness times its radius squared",
-            Self::Damping => "a feel damps more than the device's maximum damping times its radius squared",
-            Self::Torque => "a feel requests more torque than the device's maximum force times its radius",
+            Self::Stiffness { .. } => "a feel is stiffer than the device's maximum stiffness times its radius squared",
+            Self::Damping { .. } => "a feel damps more than the device's maximum damping times its radius squared",
+            Self::Torque { .. } => "a feel requests more torque than the device's maximum force times its radius",
             Self::LetGo => "the torque released per second must be positive and finite",
-            Self::Far => {
-                "the dial is more than an eighth of a turn from there: turn it there first, or give a nearer position"
-            }
+            Self::Far { .. } => "a part would turn the dial by more than an eighth of a turn",
+            Self::Late => "a stored feel is restored before the first tick only",
         }
     }
 }
 
-crate::message::display!(KnobError);
+impl fmt::Display for KnobError {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut beyond = |does: &str, [asked, limit]: [f32; 2], unit: &str| {
+            let [asked, limit] = [1e3 * asked, 1e3 * limit];
+            write!(
+                formatter,
+                "with it the feel {does} {asked:.2} {unit}, and the motor's limit is {limit:.2} {unit}: "
+            )?;
+            formatter.write_str("weaken it or another part, or take one away")
+        };
+        match *self {
+            Self::Stiffness { asked_n_m_per_rad: asked, limit_n_m_per_rad: limit } => {
+                beyond("is as stiff as", [asked, limit], "mN·m/rad")
+            }
+            Self::Damping { asked_n_m_s_per_rad: asked, limit_n_m_s_per_rad: limit } => {
+                beyond("damps by", [asked, limit], "mN·m·s/rad")
+            }
+            Self::Torque { asked_n_m: asked, limit_n_m: limit } => beyond("has up to", [asked, limit], "mN·m"),
+            Self::Far { asked_rad: asked } => write!(
+                formatter,
+                "it would turn the dial by {asked:.2} rad, and the limit is an eighth of a turn, {MAX_RETURN_RAD:.2} rad: \
+                 turn the dial there first, or give a nearer position"
+            ),
+            _ => formatter.write_str(self.message()),
+        }
+    }
+}
+
+impl core::error::Error for KnobError {}
 
 /// The state of a knob between two ticks.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -184,17 +232,18 @@ impl Knob {
         if let Err(error) = feel.check() {
             return Err(KnobError::Feel(error));
         }
+        let [stiffness, damping, torque] = [feel.stiffness(), feel.greatest_damping(), feel.torque_between_ends()];
         // Written so that NaN is refused.
-        let bears_stiffness = feel.stiffness() <= self.max_stiffness;
-        let bears_damping = feel.greatest_damping() <= self.max_damping;
-        let bears_torque = feel.torque_between_ends() <= self.most;
+        let bears_stiffness = stiffness <= self.max_stiffness;
+        let bears_damping = damping <= self.max_damping;
+        let bears_torque = torque <= self.most;
         if !bears_stiffness {
-            return Err(KnobError::Stiffness);
+            return Err(KnobError::Stiffness { asked_n_m_per_rad: stiffness, limit_n_m_per_rad: self.max_stiffness });
         }
         if !bears_damping {
-            return Err(KnobError::Damping);
+            return Err(KnobError::Damping { asked_n_m_s_per_rad: damping, limit_n_m_s_per_rad: self.max_damping });
         }
-        if bears_torque { Ok(()) } else { Err(KnobError::Torque) }
+        if bears_torque { Ok(()) } else { Err(KnobError::Torque { asked_n_m: torque, limit_n_m: self.most }) }
     }
 
     /// [`Self::try_new`] for a `static`: invalid numbers are compile errors.
@@ -230,7 +279,7 @@ impl Knob {
         // Written so that NaN is refused.
         let near = pull <= MAX_RETURN_RAD;
         if !near {
-            return Err(KnobError::Far);
+            return Err(KnobError::Far { asked_rad: pull });
         }
         // New clicks hold the dial in the detent that is nearest, whichever held it before.
         if part.clicks.is_some() {
@@ -246,7 +295,7 @@ impl Knob {
     /// The number that is refused.
     pub fn restore(&self, state: &mut KnobWitness, feel: Feel) -> Result<(), KnobError> {
         if state.whole.is_some() {
-            return Err(KnobError::Far);
+            return Err(KnobError::Late);
         }
         self.bears(&feel)?;
         (state.own, state.feel, state.rebased) = (Some(feel), self.feels.len() as u8, true);
@@ -494,14 +543,29 @@ mod tests {
 
     #[test]
     fn a_feel_that_the_device_does_not_bear_is_refused_by_name() {
+        extern crate std;
         fn refused(feel: Feel) -> KnobError {
-            extern crate std;
             Knob::try_new(&GIMBAL_KNOB, std::boxed::Box::leak(std::boxed::Box::new([feel])), LET_GO).unwrap_err()
         }
         let wave = |pitch, torque| Some(Wave { pitch_rad: pitch, torque_n_m: torque, centre_rad: 0.0 });
-        assert_eq!(refused(Feel { detents: wave(0.25, 0.07), ..Feel::FREE }), KnobError::Stiffness);
-        assert_eq!(refused(Feel { detents: wave(2.5, 0.07), ..Feel::FREE }), KnobError::Torque);
-        assert_eq!(refused(Feel { damping_n_m_s_per_rad: 4e-3, ..Feel::FREE }), KnobError::Damping);
+        // 0.07 · 2π/0.25; 2.8 N and 4,000 N/m and 8 N·s/m at a radius of 20 mm.
+        for (feel, says) in [
+            (
+                Feel { detents: wave(0.25, 0.07), ..Feel::FREE },
+                "as stiff as 1759.29 mN·m/rad, and the motor's limit is 1600.00",
+            ),
+            (
+                Feel { detents: wave(2.5, 0.07), ..Feel::FREE },
+                "up to 70.00 mN·m, and the motor's limit is 56.00 mN·m: weaken",
+            ),
+            (
+                Feel { damping_n_m_s_per_rad: 4e-3, ..Feel::FREE },
+                "damps by 4.00 mN·m·s/rad, and the motor's limit is 3.20",
+            ),
+        ] {
+            let said = std::string::ToString::to_string(&refused(feel));
+            assert!(said.contains(says), "{said}");
+        }
         assert_eq!(refused(Feel { detents: wave(0.0, 0.01), ..Feel::FREE }), KnobError::Feel(FeelError::Detents));
         assert_eq!(Knob::try_new(&GIMBAL_KNOB, &[], LET_GO), Err(KnobError::Feels));
         assert_eq!(Knob::try_new(&GIMBAL_KNOB, &FEELS, 0.0), Err(KnobError::LetGo));
@@ -516,7 +580,7 @@ mod tests {
         assert_eq!(KNOB.set(&mut state, FeelPart::Detents(Some(wave))), Err(KnobError::Feel(FeelError::Detents)));
         // The dial is in it, far from its middle.
         let notch = Notch { at_rad: 0.0, width_rad: 3.1, torque_n_m: 1e-3 };
-        assert_eq!(KNOB.set(&mut state, FeelPart::Notch(Some(notch))), Err(KnobError::Far));
+        assert_eq!(KNOB.set(&mut state, FeelPart::Notch(Some(notch))), Err(KnobError::Far { asked_rad: 1.5 }));
         let clicks = Detents {
             pitch: 1.4,
             stiffness: 1e-3,

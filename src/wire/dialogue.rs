@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 /// The version of these messages: another one may mean something else by them.
-pub const PROTOCOL: u16 = 4;
+pub const PROTOCOL: u16 = 5;
 
 /// From a device that runs by itself.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -132,7 +132,7 @@ pub enum Calibrated {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum KeepError {
     /// No flash was set aside for one.
-    #[error("this device has no flash for it")]
+    #[error("this board has no flash for it: send it again after each reset, or build it in")]
     NoFlash,
     /// The device is not being set up.
     #[error("a calibration is saved only in commissioning mode")]
@@ -180,7 +180,7 @@ pub struct Hello {
 }
 
 /// The result of a command or of a part of an upload.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Answer {
     /// Its number.
@@ -190,7 +190,7 @@ pub struct Answer {
 }
 
 /// Why something was refused.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, Error)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Refused {
     /// No hello in the device's version since the device's start.

@@ -4,7 +4,7 @@ use crate::stopping::CONFIRMED;
 use crate::{Device, Error, Line, SILENCE, TRIES};
 use palpate::render::FeelPart;
 use palpate::scene::Command;
-use palpate::wire::{Dial, HostMessage};
+use palpate::wire::{Dial, HostMessage, hold};
 use std::time::Duration;
 
 impl<L: Line> Device<L> {
@@ -12,22 +12,30 @@ impl<L: Line> Device<L> {
     /// torque is let go of without a step.
     ///
     /// # Errors
-    /// As [`Self::order`].
+    /// As [`Self::order`]. [`palpate::servo::KnobError`] has the sum of the parts and the limit of the motor.
     pub fn feel(&mut self, part: FeelPart) -> Result<(), Error> {
         self.order(Command::Feel(part))
     }
 
-    /// Stores the feel that was set in the knob's flash, or clears the stored one; used from the next reset on. The
-    /// motor must be off and the enable button released. A person then holds the button for half a second and releases
-    /// it, within half a minute.
+    /// Asks the knob to store the feel that was set in its flash, or to clear the stored one, and waits for the outcome;
+    /// used from the next reset on. The motor must be off and the enable button released. Once the device asks for it,
+    /// `confirm` is called, which tells a person to hold the button for half a second and to release it, within half a
+    /// minute.
     ///
     /// # Errors
-    /// As [`Self::order`].
-    pub fn keep_feel(&mut self, keeps: bool) -> Result<(), Error> {
+    /// As [`Self::order`]. A board without flash for it refuses at once.
+    pub fn keep_feel(&mut self, keeps: bool, mut confirm: impl FnMut()) -> Result<(), Error> {
         self.usable()?;
         let asked = if keeps { "keep-feel" } else { "forget-feel" };
-        let patience = CONFIRMED / TRIES;
-        let refused = self.ask(asked, (TRIES, patience), |number| HostMessage::KeepFeel { number, keeps })?;
+        let (views, mut is_asked) = (self.views, false);
+        let meanwhile = |device: &Self| {
+            let asks = device.views > views && device.view.is_some_and(|(view, _)| view.hold & hold::CONFIRM != 0);
+            if asks && !std::mem::replace(&mut is_asked, asks) {
+                confirm();
+            }
+        };
+        let command = |number| HostMessage::KeepFeel { number, keeps };
+        let refused = self.ask_while(asked, (TRIES, CONFIRMED / TRIES), command, meanwhile)?;
         refused.map_or(Ok(()), |reason| Err(Error::Refused { asked, reason }))
     }
 

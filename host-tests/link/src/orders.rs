@@ -1,7 +1,7 @@
 //! A host's commands.
 
 use crate::{Device, Error, Line};
-use palpate::render::Friction;
+use palpate::render::{FeelPart, Friction};
 use palpate::scene::{BodyPose, Command};
 use palpate::wire::{HostMessage, Refused};
 use std::time::Duration;
@@ -31,8 +31,19 @@ impl<L: Line> Device<L> {
     pub(crate) fn ask(
         &mut self,
         asked: &'static str,
+        times: (u32, Duration),
+        command: impl Fn(u16) -> HostMessage,
+    ) -> Result<Option<Refused>, Error> {
+        self.ask_while(asked, times, command, |_| ())
+    }
+
+    /// The same, with something to do whenever the device was heard meanwhile.
+    pub(crate) fn ask_while(
+        &mut self,
+        asked: &'static str,
         (tries, patience): (u32, Duration),
         command: impl Fn(u16) -> HostMessage,
+        mut meanwhile: impl FnMut(&Self),
     ) -> Result<Option<Refused>, Error> {
         // The same however often it is sent: a device that has done it already answers again, and does not do it again.
         self.number = self.number.wrapping_add(1);
@@ -45,6 +56,7 @@ impl<L: Line> Device<L> {
             while self.answer.is_none() && self.since(sent) < patience {
                 self.hear(patience.saturating_sub(self.since(sent)))?;
                 self.usable()?;
+                meanwhile(self);
             }
             match self.answer.take().map(|answer| answer.refused) {
                 None => left -= 1,
@@ -178,6 +190,16 @@ const fn name(order: &Command) -> &'static str {
         Command::Push { .. } => "push",
         Command::Take { .. } => "take",
         Command::PutBack { .. } => "put back",
-        Command::Feel(_) => "feel",
+        Command::Feel(part) => match part {
+            FeelPart::Detents(_) => "detents",
+            FeelPart::Clicks(_) => "clicks",
+            FeelPart::Texture(_) => "texture",
+            FeelPart::Spring(_) => "spring",
+            FeelPart::Ends(_) => "ends",
+            FeelPart::Damping(_) => "damping",
+            FeelPart::Friction(_) => "friction",
+            FeelPart::Notch(_) => "notch",
+            FeelPart::Free => "free",
+        },
     }
 }

@@ -103,7 +103,7 @@ export class Knob {
       }
       if (by("knob-live").checked) this.page.live?.orders.set(part, numbers);
     }
-    this.refuse(refusals.length ? `${refusals.join("; ")}: weaken it or another part` : "");
+    this.refuse(refusals.join("; "));
     this.curve = null;
   }
 

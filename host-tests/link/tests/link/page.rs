@@ -7,7 +7,7 @@ use std::path::Path;
 
 /// What the page says a frame says, and the message.
 const SHOWN: [(&str, HostMessage); 7] = [
-    ("hello, in version 4", HostMessage::Hello { protocol: PROTOCOL }),
+    ("hello, in version 5", HostMessage::Hello { protocol: PROTOCOL }),
     ("the host is there", HostMessage::Alive),
     ("stop", HostMessage::Stop),
     (

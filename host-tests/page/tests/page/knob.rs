@@ -58,7 +58,7 @@ fn sliders_set_the_dial_without_a_step_and_within_its_limits() -> anyhow::Result
     }
     slide(&page, &[("strength", 50.0), ("texture", 15.0)])?;
     let refusal = page.ask("document.getElementById('knob-refusal').textContent")?;
-    let words = "texture: a feel is stiffer than the device's maximum stiffness";
+    let words = "texture: with it the feel is as stiff as";
     ensure!(refusal.as_str().is_some_and(|text| text.starts_with(words)), "{refusal}");
     slide(&page, &[("texture", 0.0)])?;
     ensure!(page.ask("document.getElementById('knob-refusal').hidden")? == true, "still refused");

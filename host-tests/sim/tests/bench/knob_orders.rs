@@ -5,7 +5,7 @@ use palpate::render::{Detents, DialFriction, Ends, Feel, FeelPart, Notch, Spring
 use palpate::scene::{BodyPose, Command, SceneError};
 use palpate::servo::{Heartbeat, ResetReason};
 use palpate::wire::frame::{MAX_FRAME, Received, Receiver, pack};
-use palpate::wire::{Answer, DeviceMessage, Hello, HostMessage, PROTOCOL, Refused, Upload};
+use palpate::wire::{Answer, DeviceMessage, Hello, HostMessage, KeepError, PROTOCOL, Refused, Upload};
 use palpate_bench::Idle;
 use palpate_sim::knob::{FEELS, LET_GO, SETTINGS};
 use palpate_sim::plant::Fingers;
@@ -89,6 +89,29 @@ fn a_host_chooses_what_is_felt_and_is_told_what_there_is_not() {
         assert_eq!(device.order(number, order), Some(Refused::Command(SceneError::NotOffered)));
     }
     assert_eq!((device.feel(), device.rig.fault(), device.rig.enabled()), (last, None, true));
+}
+
+#[test]
+fn the_documented_part_is_taken_and_a_refusal_comes_with_its_limit() {
+    let page = include_str!("../../../../docs/reference/wire.md");
+    let section = page.split("## HostMessage: order, part of a feel").nth(1).expect("its section");
+    let frame = section.split("Frame: `").nth(1).and_then(|rest| rest.split('`').next()).expect("a frame");
+    let mut device = Device::new(Rig::running());
+    device.send(&HostMessage::Hello { protocol: PROTOCOL });
+    device.tick();
+    device.wire.to_device.extend(frame.split(' ').map(|byte| u8::from_str_radix(byte, 16).expect("a byte")));
+    (0..4).for_each(|_| device.tick());
+    let takes = |told: &DeviceMessage| matches!(told, DeviceMessage::Answer(Answer { number: 303, refused: None }));
+    assert!(device.told.iter().any(takes), "{:?}", device.told);
+    // Beside the detents of the table's first feel, 30 mN·m.
+    let spring = Spring { stiffness_n_m_per_rad: 0.125, rest_rad: -0.5, max_torque_n_m: 0.03125 };
+    let refused = device.order(304, Command::Feel(FeelPart::Spring(Some(spring)))).expect("a refusal");
+    assert!(refused.to_string().contains("up to 61.25 mN·m, and the motor's limit is 56.00 mN·m"), "{refused}");
+    // A board without flash for it says so.
+    device.send(&HostMessage::KeepFeel { number: 305, keeps: true });
+    (0..4).for_each(|_| device.tick());
+    let refused = Some(Refused::Feel(KeepError::NoFlash));
+    assert!(device.told.contains(&DeviceMessage::Answer(Answer { number: 305, refused })), "{:?}", device.told);
 }
 
 /// Whatever a host may send that does not stop the knob or set it up: orders that make sense and that do not, repeats,
@@ -450,17 +473,19 @@ fn a_kept_or_early_spring_leaves_the_dial_where_it_is() {
     let early = enable(&mut device, &knob, 3.0);
     // Then it must be near.
     let far = device.feel(FeelPart::Spring(Some(spring))).unwrap_err();
-    assert!(far.to_string().contains("more than an eighth of a turn"), "{far}");
+    assert!(far.to_string().contains("the limit is an eighth of a turn, 0.79 rad"), "{far}");
     let on = enable(&mut device, &knob, 40.0);
     let at = device.line().board.bench.state().witness().angle().unwrap();
     let [least, most] = ends.between_rad;
     device.feel(FeelPart::Ends(Some(Ends { between_rad: [least + at, most + at], ..ends }))).unwrap();
     // Kept: refused under force, then confirmed.
-    let driven = device.keep_feel(true).unwrap_err();
+    let driven = device.keep_feel(true, || ()).unwrap_err();
     assert!(driven.to_string().contains("only while the motors are off"), "{driven}");
     knob.world().enable = false;
     (0..400).for_each(|_| device.line().tick());
-    device.keep_feel(true).unwrap();
+    let mut confirms = 0;
+    device.keep_feel(true, || confirms += 1).unwrap();
+    assert_eq!(confirms, 1, "a person is asked once");
     let own = device.line().board.bench.state().witness().own().copied();
     let reset: &'static KnobFlash = Box::leak(Box::new(flash.after_reset()));
     let (mut device, knob) = make(reset);
@@ -482,7 +507,7 @@ fn a_kept_or_early_spring_leaves_the_dial_where_it_is() {
     // And a flash that is damaged is no feel.
     knob.world().enable = false;
     (0..400).for_each(|_| device.line().tick());
-    device.keep_feel(false).unwrap();
+    device.keep_feel(false, || ()).unwrap();
     let (mut device, _) = make(Box::leak(Box::new(reset.after_reset())));
     assert_eq!(device.line().board.bench.state().witness().own(), None);
 }

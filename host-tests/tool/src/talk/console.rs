@@ -168,12 +168,23 @@ impl<'a, L: Line> Console<'a, L> {
             }
             Asked::Feel(part) => self.device.feel(part)?,
             Asked::KeepFeel(keeps) => {
-                match &self.button {
-                    Some(button) => button(Press::Confirm),
-                    None => writeln!(output, "now hold the enable button for half a second, and release it")?,
+                let button = &self.button;
+                if let Some(button) = button {
+                    button(Press::Up);
                 }
-                output.flush()?;
-                self.device.keep_feel(keeps)?;
+                let confirm = || match button {
+                    Some(button) => button(Press::Confirm),
+                    None => {
+                        // A person who does not read it does not confirm, and that is refused.
+                        let _ = writeln!(output, "now hold the enable button for half a second, and release it");
+                        let _ = output.flush();
+                    }
+                };
+                self.device.keep_feel(keeps, confirm)?;
+                let outcome =
+                    if keeps { "kept: the knob starts with this feel" } else { "cleared: it starts with its table" };
+                writeln!(output, "{outcome} from the next reset on")?;
+                return Ok(Step::GoesOn);
             }
             Asked::Press(pressed) => {
                 let button = self.button.as_ref();

@@ -68,6 +68,26 @@ fn a_line_that_is_refused_or_not_understood_ends_a_file_with_a_sentence() {
 }
 
 #[test]
+fn a_knob_says_what_became_of_its_feel() {
+    let arguments = ["--device", "knob", "--host"];
+    let (status, said, complained) = talk(&arguments, "free\nwait 0.2\nkeep-feel\nforget-feel\n");
+    let outcome = "done\nkept: the knob starts with this feel from the next reset on\n\
+                   cleared: it starts with its table from the next reset on\n";
+    assert_eq!((status, said.contains(outcome)), (Some(0), true), "{said}{complained}");
+    for (lines, says) in [
+        ("keep-feel\n", "keep-feel was refused by the device: no feel was set since the last reset; set one first"),
+        (
+            "spring 0.3 31.25 0\n",
+            "spring was refused by the device: with it the feel has up to 61.25 mN·m, and the motor's limit is 56.00 mN·m: \
+             weaken it or another part, or take one away",
+        ),
+    ] {
+        let (status, _, complained) = talk(&arguments, lines);
+        assert!(status == Some(2) && complained.contains(says), "{complained}");
+    }
+}
+
+#[test]
 fn a_device_has_to_be_somewhere() {
     assert_eq!(talk(&[], "").2.trim(), "error: either --port, --emulator or --host");
     let (status, _, complained) = talk(&["--port", "/dev/no-such-port"], "");
