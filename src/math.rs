@@ -3,7 +3,10 @@
 //! Nothing here uses fused multiply-add: without the hardware instruction it is software `f64`, and with it the host
 //! and the target would differ in the last bit.
 
+mod quaternion;
+
 pub use glam::{Vec2, Vec3, vec2, vec3};
+pub(crate) use quaternion::{product, quaternion, turned_by};
 
 /// `1/√x` for a normal positive `x`. About 20 instructions, no division.
 ///

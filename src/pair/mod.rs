@@ -13,6 +13,7 @@ mod cells;
 mod common_normal;
 mod contact;
 mod hand_over;
+mod location;
 mod proxy;
 mod quadratic;
 mod step;

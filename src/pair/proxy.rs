@@ -1,11 +1,13 @@
 //! The drawn tool, held outside the body: a god-object in six degrees of freedom, and the virtual coupling to the hand.
 
 use super::contact::{MAX_CONTACTS, Manifold, ToolContact};
-use super::tool::{Core, Tool};
-use super::tracker::{ToolStatus, ToolWitness};
+use super::location::Location;
+use super::tool::Tool;
+use super::tracker::{JUMP, ToolStatus, ToolWitness};
 use crate::body::Body;
-use crate::math::{Vec3, sqrt, vec3};
-use crate::scene::{BodyPose, Wrench, product, turned_by};
+use crate::math::{Vec3, product, sqrt, turned_by, vec3};
+use crate::scene::{BodyPose, Wrench};
+use crate::track::Placement;
 use core::fmt;
 
 /// Maximum speed of the proxy, m/s and rad/s, and its maximum motion in a tick, beyond which a linearised gap says too
@@ -20,11 +22,12 @@ const SLIP_STEP: [f32; 2] = [0.04, 0.1e-3];
 const FADE_S: f32 = 0.005;
 /// Sweeps over the contacts.
 const SWEEPS: u8 = 10;
-/// A tool in contact has a radius of at least this share of its core's largest half length: nearer, the normal is lost
-/// to rounding (theory §14).
-const MIN_RADIUS: f32 = 0.01;
 /// Of the radius: contact is given up where the core is nearer to the body than the rest.
 const GIVEN_UP: f32 = 0.5;
+/// Of the jump that a tracker notices: how far the tool goes in a tick from where it was located to the hand.
+const STRIDE: f32 = 0.25;
+/// Radians, of the same.
+const STRIDE_RAD: f32 = 0.05;
 
 /// The spring between hand and proxy, in six directions about the origin of the tool's frame.
 ///
@@ -45,6 +48,7 @@ const GIVEN_UP: f32 = 0.5;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ToolCoupling {
     stiffness_n_per_m: f32,
+    /// Infinite where the proxy has the hand's orientation.
     stiffness_n_m_per_rad: f32,
     period_s: f32,
     /// Of the proxy in a tick, m and rad.
@@ -62,6 +66,8 @@ pub struct ToolCoupling {
 pub enum ProxyError {
     /// The radius of the tool is below 1 % of its core's largest half length, or 0.
     Thin,
+    /// Stiffness or rate of the coupling are not positive and finite.
+    Coupling,
     /// The hand's pose is not finite, or its quaternion not of length 1.
     Pose,
     /// Tool and body intersect.
@@ -71,23 +77,37 @@ pub enum ProxyError {
 }
 
 /// The proxy, and the state of its contacts.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Proxy {
     pose: BodyPose,
     hand: BodyPose,
     state: ToolWitness,
     manifold: Manifold,
+    distance: f32,
     evaluations: u32,
-    given_up: Option<ProxyError>,
+    stage: ProxyStage,
     /// The last wrench on the hand before contact was given up, and the share of it that is still given.
     wrench: Wrench,
     share: f32,
+}
+
+/// The stages of a proxy. Only the one that holds gives a wrench of its own.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum ProxyStage {
+    /// Finds the contacts at a pose that the hand has had, a step a tick.
+    Locating(Location),
+    /// Follows them from there to the hand.
+    Approaching,
+    /// Holds the drawn tool outside of the body.
+    Holding,
+    GivenUp(ProxyError),
 }
 
 impl fmt::Display for ProxyError {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str(match self {
             Self::Thin => "radius: a tool for contact needs at least 1 % of its core's largest half length",
+            Self::Coupling => "coupling: stiffness and rate must be positive and finite",
             Self::Pose => "pose: needs finite numbers and a quaternion of length 1",
             Self::Intersects => "pose: tool and body intersect; move the tool out of the body",
             Self::Lost => "the closest pair is not known; start the proxy again",
@@ -115,23 +135,42 @@ impl ToolCoupling {
         })
     }
 
+    /// The spring of a device whose wrist has no motors: the proxy has the hand's orientation and there is no torque.
+    ///
+    /// A force alone is not the gradient of a potential in six directions: along a closed path of the hand that turns
+    /// the tool in contact, its energy need not come back to where it was (Barbagli & Salisbury 2003).
+    pub const fn without_torque(stiffness_n_per_m: f32, rate_hz: f32) -> Option<Self> {
+        match Self::new(stiffness_n_per_m, 1.0, rate_hz) {
+            Some(coupling) => Some(Self { stiffness_n_m_per_rad: f32::INFINITY, ..coupling }),
+            None => None,
+        }
+    }
+
+    const fn has_torque(&self) -> bool {
+        self.stiffness_n_m_per_rad < f32::INFINITY
+    }
+
+    /// N·m/rad of the torque that is given.
+    const fn torsion(&self) -> f32 {
+        if self.has_torque() { self.stiffness_n_m_per_rad } else { 0.0 }
+    }
+
     /// The damping that makes the sampled spring passive: N·s/m and N·m·s/rad.
     pub const fn min_damping(&self) -> [f32; 2] {
-        [0.5 * self.stiffness_n_per_m * self.period_s, 0.5 * self.stiffness_n_m_per_rad * self.period_s]
+        [0.5 * self.stiffness_n_per_m * self.period_s, 0.5 * self.torsion() * self.period_s]
     }
 
     /// On the proxy at `from`, by a hand at `to`; minus it is on the hand.
     pub fn wrench(&self, from: &BodyPose, to: &BodyPose) -> Wrench {
         let (away, (vector, scalar)) = stretch(from, to);
-        let torque = vector * (2.0 * self.stiffness_n_m_per_rad * scalar);
+        let torque = vector * (2.0 * self.torsion() * scalar);
         Wrench { force: away * self.stiffness_n_per_m, torque }
     }
 
     /// The energy in the spring, J.
     pub fn energy_j(&self, from: &BodyPose, to: &BodyPose) -> f32 {
         let (away, (vector, _)) = stretch(from, to);
-        0.5 * self.stiffness_n_per_m * away.length_squared()
-            + 2.0 * self.stiffness_n_m_per_rad * vector.length_squared()
+        0.5 * self.stiffness_n_per_m * away.length_squared() + 2.0 * self.torsion() * vector.length_squared()
     }
 
     /// The proxy's pose a tick later: the quadratic model of the spring's energy, minimised where no linearised gap
@@ -140,9 +179,10 @@ impl ToolCoupling {
     /// A share of a step is feasible and lower as the step is, so that the motion beyond `hand`'s since `before` is
     /// bounded.
     fn settle(&self, proxy: &BodyPose, before: &BodyPose, hand: &BodyPose, contacts: &[ToolContact]) -> BodyPose {
+        // An infinite stiffness gives 0: no contact turns the proxy.
         let [soft, softer] = [1.0 / self.stiffness_n_per_m, 1.0 / self.stiffness_n_m_per_rad];
-        let pull = self.wrench(proxy, hand);
-        let (mut way, mut turn) = (pull.force * soft, pull.torque * softer);
+        let (mut way, (vector, scalar)) = stretch(proxy, hand);
+        let mut turn = vector * (2.0 * scalar);
         // One factor for both, so that the step still lowers the spring's energy.
         let share = share_within([way, turn], self.max_step);
         (way, turn) = (way * share, turn * share);
@@ -161,13 +201,14 @@ impl ToolCoupling {
         let (moved, (turned, _)) = stretch(before, hand);
         let length = |vector: Vec3| sqrt(vector.length_squared());
         let [slip, slip_turn] = self.max_slip;
-        let share = share_within([way, turn], [length(moved) + slip * soft, 2.0 * length(turned) + slip_turn * softer]);
+        let max_turn = if self.has_torque() { 2.0 * length(turned) + slip_turn * softer } else { f32::INFINITY };
+        let share = share_within([way, turn], [length(moved) + slip * soft, max_turn]);
         (way, turn) = (way * share, turn * share);
         let position = (Vec3::from_array(proxy.position) + way).to_array();
         let next = BodyPose { position, orientation: turned_by(turn * 0.5, &proxy.orientation) };
-        // Where nothing has to be taken back, standing still is feasible.
-        let is_outside = contacts.iter().all(|contact| contact.gap >= 0.0);
-        if is_outside && self.energy_j(&next, hand) > self.energy_j(proxy, hand) { *proxy } else { next }
+        // Where nothing has to be taken back and the proxy need not turn, standing still is feasible.
+        let may_stay = self.has_torque() && contacts.iter().all(|contact| contact.gap >= 0.0);
+        if may_stay && self.energy_j(&next, hand) > self.energy_j(proxy, hand) { *proxy } else { next }
     }
 }
 
@@ -207,28 +248,113 @@ impl Proxy {
     /// # Errors
     /// A tool that is too thin, a pose that is none, and tools that do not lie outside the body.
     pub fn start(body: &Body, tool: &Tool, hand: &BodyPose) -> Result<Self, ProxyError> {
-        if !is_thick(tool) {
+        if !tool.is_thick() {
             return Err(ProxyError::Thin);
         }
-        let placement = hand.placement().ok_or(ProxyError::Pose)?;
-        if !placement.origin.is_finite() {
-            return Err(ProxyError::Pose);
-        }
+        let placement = placement_of(hand).ok_or(ProxyError::Pose)?;
         let (state, found) = body.locate_tool(tool, &placement);
         match found.status {
-            ToolStatus::AtRest if found.distance >= 0.0 => Ok(Self {
-                pose: *hand,
-                hand: *hand,
-                state,
-                manifold: Manifold::NONE,
-                evaluations: found.evaluations,
-                given_up: None,
-                wrench: Wrench::default(),
-                share: 1.0,
-            }),
+            ToolStatus::AtRest if found.distance >= 0.0 => {
+                Ok(Self { evaluations: found.evaluations, ..Self::with(state, *hand, ProxyStage::Holding) })
+            }
             ToolStatus::AtRest | ToolStatus::Inside => Err(ProxyError::Intersects),
             _ => Err(ProxyError::Lost),
         }
+    }
+
+    /// A proxy that locates its contacts tick by tick, from the first tick on: for a loop, in which the hand's pose is not
+    /// known before and the work of a tick is bounded. There is no wrench until all are located, the proxy has gone to
+    /// the hand, and the hand's tool is outside of the body: [`Self::is_holding`].
+    pub const fn unlocated() -> Self {
+        let pose = BodyPose { position: [0.0; 3], orientation: [0.0, 0.0, 0.0, 1.0] };
+        // Given up with nothing to fade: the first tick locates.
+        Self::with(ToolWitness::unlocated(&Placement::IDENTITY), pose, ProxyStage::GivenUp(ProxyError::Lost))
+    }
+
+    const fn with(state: ToolWitness, pose: BodyPose, stage: ProxyStage) -> Self {
+        Self {
+            pose,
+            hand: pose,
+            state,
+            manifold: Manifold::NONE,
+            distance: 0.0,
+            evaluations: 0,
+            stage,
+            wrench: Wrench { force: Vec3::ZERO, torque: Vec3::ZERO },
+            share: 1.0,
+        }
+    }
+
+    /// As [`Self::tick`], but contact that was given up is located again once the wrench has faded, and the work of that
+    /// is spread over ticks too: one cold query of a point or one step of a pair in each.
+    pub fn tick_located(
+        &mut self,
+        body: &Body,
+        tool: &Tool,
+        coupling: &ToolCoupling,
+        hand: &BodyPose,
+        cells: u16,
+    ) -> Wrench {
+        match &mut self.stage {
+            ProxyStage::GivenUp(_) if self.share <= 0.0 || self.wrench == Wrench::default() => {
+                if let Some(placement) = placement_of(hand).filter(|_| tool.is_thick()) {
+                    *self =
+                        Self::with(ToolWitness::unlocated(&placement), *hand, ProxyStage::Locating(Location::START));
+                }
+                Wrench::default()
+            }
+            ProxyStage::Locating(location) => {
+                let before = location.evaluations();
+                location.step(body, tool, &mut self.state, false);
+                self.evaluations = location.evaluations() - before;
+                if location.is_done() {
+                    self.stage = match location.closest(&self.state, tool).status {
+                        ToolStatus::AtRest => ProxyStage::Approaching,
+                        ToolStatus::Inside => ProxyStage::GivenUp(ProxyError::Intersects),
+                        _ => ProxyStage::GivenUp(ProxyError::Lost),
+                    };
+                }
+                Wrench::default()
+            }
+            ProxyStage::Approaching => {
+                if let Err(error) = self.approach(body, tool, hand, cells) {
+                    self.stage = ProxyStage::GivenUp(error);
+                }
+                Wrench::default()
+            }
+            ProxyStage::GivenUp(_) | ProxyStage::Holding => self.tick(body, tool, coupling, hand, cells),
+        }
+    }
+
+    /// A stride to the hand, with the contacts. There it holds, once the tool is outside.
+    fn approach(&mut self, body: &Body, tool: &Tool, hand: &BodyPose, cells: u16) -> Result<(), ProxyError> {
+        placement_of(hand).ok_or(ProxyError::Pose)?;
+        let (away, (vector, scalar)) = stretch(&self.pose, hand);
+        let stride = STRIDE * JUMP * body.size();
+        let reach = tool.extents().max_element();
+        let max_turn = if stride < STRIDE_RAD * reach { stride / reach } else { STRIDE_RAD };
+        let turn = vector * (2.0 * scalar);
+        let share = share_within([away, turn], [stride, max_turn]);
+        let is_there = share >= 1.0 && scalar.abs() > 0.9;
+        self.pose = if is_there {
+            *hand
+        } else {
+            BodyPose {
+                position: (Vec3::from_array(self.pose.position) + away * share).to_array(),
+                orientation: turned_by(turn * (0.5 * share), &self.pose.orientation),
+            }
+        };
+        self.hand = *hand;
+        let placement = placement_of(&self.pose).ok_or(ProxyError::Pose)?;
+        let found = body.step_tool(tool, &mut self.state, &placement, cells);
+        (self.distance, self.evaluations) = (found.distance, found.evaluations);
+        if !matches!(found.status, ToolStatus::Following | ToolStatus::AtRest) {
+            return Err(ProxyError::Lost);
+        }
+        if is_there && found.distance >= 0.0 {
+            self.stage = ProxyStage::Holding;
+        }
+        Ok(())
     }
 
     /// One tick: follows the contacts of the proxy, lets it go towards the hand as far as they let it, and gives the
@@ -236,10 +362,12 @@ impl Proxy {
     /// and there is none until the proxy is started again: the hand's pose is none, the tracker lost the pair, or the
     /// core is nearer to the body than half the radius. `cells` as in [`Body::step_tool`].
     pub fn tick(&mut self, body: &Body, tool: &Tool, coupling: &ToolCoupling, hand: &BodyPose, cells: u16) -> Wrench {
-        if self.given_up.is_none() {
-            self.given_up = self.follow(body, tool, coupling, hand, cells).err();
+        if self.is_holding()
+            && let Err(error) = self.follow(body, tool, coupling, hand, cells)
+        {
+            self.stage = ProxyStage::GivenUp(error);
         }
-        if self.given_up.is_some() {
+        if !self.is_holding() {
             let left = self.share - coupling.fade_step;
             self.share = if left > 0.0 { left } else { 0.0 };
             let Wrench { force, torque } = self.wrench;
@@ -258,10 +386,10 @@ impl Proxy {
         hand: &BodyPose,
         cells: u16,
     ) -> Result<(), ProxyError> {
-        let is_pose = hand.placement().is_some_and(|placement| placement.origin.is_finite());
-        let placement = self.pose.placement().filter(|_| is_pose).ok_or(ProxyError::Pose)?;
+        placement_of(hand).ok_or(ProxyError::Pose)?;
+        let placement = placement_of(&self.pose).ok_or(ProxyError::Pose)?;
         let found = body.step_tool(tool, &mut self.state, &placement, cells);
-        self.evaluations = found.evaluations;
+        (self.distance, self.evaluations) = (found.distance, found.evaluations);
         let is_known = matches!(found.status, ToolStatus::Following | ToolStatus::AtRest);
         if !is_known || found.distance < -GIVEN_UP * tool.radius() {
             return Err(ProxyError::Lost);
@@ -290,16 +418,40 @@ impl Proxy {
 
     /// Why contact was given up, if it was.
     pub const fn given_up(&self) -> Option<ProxyError> {
-        self.given_up
+        match self.stage {
+            ProxyStage::GivenUp(error) => Some(error),
+            _ => None,
+        }
+    }
+
+    /// Whether all contacts are known, and the drawn tool is held outside.
+    pub const fn is_holding(&self) -> bool {
+        matches!(self.stage, ProxyStage::Holding)
+    }
+
+    /// From the drawn tool to the hand's, metres: zero unless a contact holds the one.
+    pub fn stretch(&self) -> Vec3 {
+        if self.is_holding() { stretch(&self.pose, &self.hand).0 } else { Vec3::ZERO }
+    }
+
+    /// Distance of the drawn tool from the body, metres: in the last tick, before the proxy moved. Negative where the
+    /// ball around the core is in the body.
+    pub const fn distance(&self) -> f32 {
+        self.distance
+    }
+
+    /// From the core's witness point to the body's, metres, in the last tick.
+    pub fn difference(&self) -> Vec3 {
+        self.state.pair().difference(self.state.placement())
+    }
+
+    /// The contacts' tracker.
+    pub const fn tracker(&self) -> &ToolWitness {
+        &self.state
     }
 }
 
-fn is_thick(tool: &Tool) -> bool {
-    let largest = match tool.core() {
-        Core::Point => 0.0,
-        Core::Segment { half } => *half,
-        Core::Box { half } => half.iter().fold(0.0, |largest, half| if *half > largest { *half } else { largest }),
-        Core::Body(body) => 0.5 * body.size(),
-    };
-    tool.radius() > 0.0 && tool.radius() >= MIN_RADIUS * largest
+/// The placement of a pose whose numbers are finite.
+fn placement_of(pose: &BodyPose) -> Option<Placement> {
+    pose.placement().filter(|placement| placement.origin.is_finite())
 }

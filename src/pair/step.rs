@@ -64,7 +64,7 @@ impl Foot {
         Self { face, parameters: [u, v], curved: patch.evaluate_apart::<KindSet<ALL_KINDS>>([u, v]) }
     }
 
-    pub(super) fn in_solid(point: Vec3) -> Self {
+    pub(super) const fn in_solid(point: Vec3) -> Self {
         let surface = SurfacePoint { point, tangent_u: Vec3::ZERO, tangent_v: Vec3::ZERO };
         Self { face: 0, parameters: [0.0; 2], curved: CurvedPoint { surface, second: SecondDerivatives::NONE } }
     }

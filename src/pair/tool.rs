@@ -24,6 +24,9 @@ pub enum Core<'a> {
     Body(&'a Body<'a>),
 }
 
+/// Minimum radius of a tool for contact, as a share of its core's largest half length.
+const MIN_RADIUS: f32 = 0.01;
+
 /// A convex core and a radius: the tool is the core with a ball rolled over it.
 #[derive(Clone, Copy, Debug)]
 pub struct Tool<'a> {
@@ -85,6 +88,21 @@ impl<'a> Tool<'a> {
     /// The radius, metres.
     pub const fn radius(&self) -> f32 {
         self.radius
+    }
+
+    /// Whether the radius is at least 1 % of the core's largest half length, as a tool for contact needs: nearer, the
+    /// normal is lost to rounding (theory §14).
+    pub const fn is_thick(&self) -> bool {
+        let largest = match &self.core {
+            Core::Point => 0.0,
+            Core::Segment { half } => *half,
+            Core::Box { half: [x, y, z] } => {
+                let across = if *x > *y { *x } else { *y };
+                if across > *z { across } else { *z }
+            }
+            Core::Body(body) => 0.5 * body.size(),
+        };
+        self.radius > 0.0 && self.radius >= MIN_RADIUS * largest
     }
 
     /// Where the core's point may be.

@@ -18,26 +18,20 @@ const RIVALS: usize = 4;
 pub const DEFAULT_CELLS: u16 = 16;
 /// Maximum cells that a location visits.
 pub const MAX_CELLS: u16 = 16_384;
-/// Maximum steps of a descent in a location.
-const MAX_STEPS: u32 = 48;
-/// Steps without a fall of the distance after which a descent ends.
-const MAX_STALLS: u32 = 12;
 /// Maximum steps of a pair in a tick: one more after each switch.
 const MAX_SWITCHES: u8 = 3;
-/// Rounds of projections in turn before the first descent of a location.
-const ROUNDS: usize = 3;
 /// Relative to the size: minima that are farther than the pair by less are tracked beside it.
-const LOOKAHEAD: f32 = 0.03;
+pub(super) const LOOKAHEAD: f32 = 0.03;
 /// Relative to the size: bodies nearer than this intersect, as far as their coordinates tell.
-const TOUCHING: f32 = 1.0e-6;
+pub(super) const TOUCHING: f32 = 1.0e-6;
 /// Relative to the size: a pair takes the place of another if it is nearer by more.
-const NEARER: f32 = 3.0e-8;
+pub(super) const NEARER: f32 = 3.0e-8;
 /// Relative to the size: witness points nearer than this are those of one minimum.
 const SAME: f32 = 1.0e-3;
 /// Gap below which a part of the core is followed in every tick, metres: more than a proxy closes in one.
 const REACH_M: f32 = 1.5e-3;
 /// Motion of the core between two ticks, relative to the body's size, above which it has jumped: locate it again.
-const JUMP: f32 = 0.03;
+pub(super) const JUMP: f32 = 0.03;
 
 /// State of the closest pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -73,9 +67,9 @@ pub struct Closest {
 }
 
 /// State of the tracker of a tool.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ToolWitness {
-    pair: Pair,
+    pub(super) pair: Pair,
     /// The core's corners, each with its nearest point of the body.
     pub(super) corners: [Option<Part>; CORNERS],
     /// The core's edges, each with its nearest pair.
@@ -86,15 +80,15 @@ pub struct ToolWitness {
     pub(super) borders: [Option<Part>; 4],
     pub(super) rivals: [Option<Pair>; RIVALS],
     /// The descent from a cell of the audit.
-    explorer: Option<Pair>,
-    cells: Cells,
+    pub(super) explorer: Option<Pair>,
+    pub(super) cells: Cells,
     placement: Placement,
     /// Whether the pair is that of the common normal.
-    is_inside: bool,
+    pub(super) is_inside: bool,
 }
 
 /// A corner or an edge of the core, or a border of the body's face, with its closest pair.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Part {
     pub pair: Pair,
     middle: Vec3,
@@ -102,81 +96,18 @@ pub(super) struct Part {
     /// Which of the body's parameters stay: those across a border.
     held: [bool; 2],
     /// Metres of the core's motion after which it may be the nearest, or in contact.
-    rests_for: f32,
+    pub rests_for: f32,
 }
 
 /// A body and a tool at a pose, and what has been spent on them.
-struct Scene<'a> {
-    body: &'a Body<'a>,
-    region: Region<'a>,
-    placement: &'a Placement,
-    evaluations: u32,
+pub(super) struct Scene<'a> {
+    pub body: &'a Body<'a>,
+    pub region: Region<'a>,
+    pub placement: &'a Placement,
+    pub evaluations: u32,
 }
 
 impl<'a> Body<'a> {
-    /// Finds the closest pair of this body and a tool, without history.
-    ///
-    /// Projections in turn on body and core, which on convex ones tend to the closest pair from any start, then the
-    /// joint step. The signs of the normals prove the result on convex bodies. Otherwise all cells of the body that can
-    /// hold a nearer point are searched, at most [`MAX_CELLS`].
-    pub fn locate_tool(&self, tool: &Tool, placement: &Placement) -> (ToolWitness, Closest) {
-        let mut scene = Scene { body: self, region: tool.region(), placement, evaluations: 0 };
-        let mut status = ToolStatus::AtRest;
-        let (mut pair, mut is_at_rest) = scene.first();
-        let mut state = ToolWitness::new(pair, placement);
-        if !(self.is_convex() && is_at_rest && scene.is_global(&pair)) {
-            let is_whole = scene.search(&mut pair, &mut is_at_rest, &mut state.rivals);
-            for _ in 0..ROUNDS {
-                is_at_rest = is_at_rest || scene.descend(&mut pair);
-            }
-            if !(is_whole && is_at_rest) {
-                status = ToolStatus::StepLimit;
-            }
-        }
-        let mut distance = scene.distance(&pair);
-        let is_apart = distance > TOUCHING * self.size() && (scene.is_global(&pair) || !scene.has_inside());
-        if !is_apart {
-            status = ToolStatus::Inside;
-            let common = match *tool.core() {
-                Core::Body(core) if common_normal::is_smooth(self) && common_normal::is_smooth(core) => {
-                    common_normal::locate(self, core, placement, &mut scene.evaluations)
-                }
-                _ => None,
-            };
-            distance = -distance;
-            if let Some((at, depth)) = common {
-                (pair, distance, state.is_inside) = (at, -depth, true);
-            }
-        }
-        state.pair = pair;
-        state.corners = tool.corners().map(|corner| {
-            corner.map(|b| Part {
-                pair: scene.beneath(b),
-                middle: b.point(),
-                half: Vec3::ZERO,
-                held: [false; 2],
-                rests_for: 0.0,
-            })
-        });
-        for (slot, (middle, half)) in state.edges.iter_mut().zip(tool.edges()) {
-            let edge = Region::Solid { middle, half };
-            let pair = scene.beside(&pair, &edge);
-            *slot = Some(Part { pair, middle, half, held: [false; 2], rests_for: 0.0 });
-        }
-        let least = scene.distance(&state.pair);
-        for part in state.corners.iter_mut().chain(&mut state.edges).flatten() {
-            part.rests_for = scene.rest(part, tool, least);
-        }
-        let closest = Closest {
-            distance: distance - tool.radius(),
-            body: pair.a.point(),
-            core: pair.b.point(),
-            evaluations: scene.evaluations,
-            status,
-        };
-        (state, closest)
-    }
-
     /// The state with the witness points on a face of the body and a face of the core; on a core that is no body, at its
     /// nearest point. Its corners and edges are not tracked.
     pub fn start_tool(
@@ -262,6 +193,26 @@ impl ToolWitness {
         }
     }
 
+    /// Before a location.
+    pub(super) const fn unlocated(placement: &Placement) -> Self {
+        let nowhere = Foot::in_solid(Vec3::ZERO);
+        Self::new(Pair { a: nowhere, b: nowhere, halvings: 0 }, placement)
+    }
+
+    /// The tool's pose in the last tick, or of the location.
+    pub(super) const fn placement(&self) -> &Placement {
+        &self.placement
+    }
+
+    pub(super) const fn restart_audit(&mut self) {
+        (self.cells, self.explorer) = (Cells::START, None);
+    }
+
+    /// Whether the pair or a rival is in the cell that the last visit started from.
+    pub(super) fn knows_cell_of(&self, start: &Pair) -> bool {
+        self.rivals.iter().flatten().chain([&self.pair]).any(|known| Cells::holds(&start.a, &known.a))
+    }
+
     /// The closest pair.
     pub const fn pair(&self) -> &Pair {
         &self.pair
@@ -293,8 +244,14 @@ impl ToolWitness {
     }
 }
 
+impl Part {
+    pub const fn new(pair: Pair, middle: Vec3, half: Vec3) -> Self {
+        Self { pair, middle, half, held: [false; 2], rests_for: 0.0 }
+    }
+}
+
 impl Scene<'_> {
-    fn distance(&self, pair: &Pair) -> f32 {
+    pub(super) fn distance(&self, pair: &Pair) -> f32 {
         sqrt(pair.difference(self.placement).length_squared())
     }
 
@@ -304,7 +261,7 @@ impl Scene<'_> {
 
     /// A step of the pair, and then the switches: asked before the step, with the new pose, motion along an edge would
     /// hide that the pair wants to cross it.
-    fn tick(&mut self, pair: &mut Pair) -> Moved {
+    pub(super) fn tick(&mut self, pair: &mut Pair) -> Moved {
         let region = self.region;
         self.tick_on(&region, pair, [false; 2]).0
     }
@@ -323,7 +280,7 @@ impl Scene<'_> {
     }
 
     /// One step; whether a point has changed its face as well.
-    fn tick_on(&mut self, region: &Region, pair: &mut Pair, held: [bool; 2]) -> (Moved, bool) {
+    pub(super) fn tick_on(&mut self, region: &Region, pair: &mut Pair, held: [bool; 2]) -> (Moved, bool) {
         let mut moved = pair.step(self.body, region, self.placement, held);
         self.evaluations += 1;
         let towards = -pair.difference(self.placement);
@@ -359,94 +316,22 @@ impl Scene<'_> {
         part.rests_for = self.rest(part, tool, least);
     }
 
-    fn rest(&self, part: &Part, tool: &Tool, least: f32) -> f32 {
+    pub(super) fn rest(&self, part: &Part, tool: &Tool, least: f32) -> f32 {
         let distance = self.distance(&part.pair);
         let until_nearest = 0.5 * (distance - least);
         let until_contact = distance - tool.radius() - REACH_M;
         if until_nearest < until_contact { until_nearest } else { until_contact }
     }
 
-    /// The closest pair of the body and a part of the core, from that of the core.
-    fn beside(&mut self, pair: &Pair, part: &Region) -> Pair {
-        let mut beside = Pair::facing(pair.a, part, self.placement);
-        for _ in 0..ROUNDS {
-            let a = self.beneath(beside.b).a;
-            beside = Pair::facing(a, part, self.placement);
-        }
-        for _ in 0..MAX_STALLS {
-            self.tick_on(part, &mut beside, [false; 2]);
-        }
-        beside
-    }
-
-    /// Steps until the pair rests. Returns whether it does.
-    fn descend(&mut self, pair: &mut Pair) -> bool {
-        // Steps at rest still refine the points. Where rounding hands a point to and fro between two faces, the distance
-        // tells.
-        let (mut rests, mut stalls, mut least) = (0, 0, self.distance(pair));
-        for _ in 0..MAX_STEPS {
-            rests = if self.tick(pair) == Moved::AtRest { rests + 1 } else { 0 };
-            let distance = self.distance(pair);
-            let falls = distance < least - NEARER * self.body.size();
-            (stalls, least) = if falls { (0, distance) } else { (stalls + 1, least) };
-            if rests == 3 || stalls == MAX_STALLS {
-                return true;
-            }
-        }
-        false
-    }
-
     /// The nearest point of the body to a point of the core.
-    fn beneath(&mut self, b: Foot) -> Pair {
+    pub(super) fn beneath(&mut self, b: Foot) -> Pair {
         let located = self.body.locate(self.placement.point_to_a(b.point()));
         self.evaluations += u32::from(located.evaluations);
         Pair { a: Foot::on(self.body, located.face, located.parameters), b, halvings: 0 }
     }
 
-    /// A first pair and its descent, by projections in turn from the core's point nearest to the body's middle.
-    fn first(&mut self) -> (Pair, bool) {
-        let (mut point, ..) = self.region.nearest(self.placement.point_to_b(Vec3::ZERO));
-        let mut pair = self.beneath(Foot::in_solid(point));
-        for _ in 0..ROUNDS {
-            pair = Pair::facing(pair.a, &self.region, self.placement);
-            point = pair.b.point();
-            pair.a = self.beneath(Foot::in_solid(point)).a;
-        }
-        pair = Pair::facing(pair.a, &self.region, self.placement);
-        let is_at_rest = self.descend(&mut pair);
-        (pair, is_at_rest)
-    }
-
-    /// Searches all cells that can hold a nearer pair. Returns whether it came to the end.
-    fn search(&mut self, best: &mut Pair, is_at_rest: &mut bool, rivals: &mut [Option<Pair>; RIVALS]) -> bool {
-        let (mut cells, mut least) = (Cells::START, self.distance(best));
-        let margin = if self.body.is_convex() { 0.0 } else { LOOKAHEAD * self.body.size() };
-        for _ in 0..MAX_CELLS {
-            self.evaluations += 1;
-            match cells.visit(self.body, &self.region, self.placement, least + margin) {
-                Visit::Nothing => {}
-                Visit::End => return true,
-                Visit::Start(start) => {
-                    if rivals.iter().flatten().chain([&*best]).any(|known| Cells::holds(&start.a, &known.a)) {
-                        continue;
-                    }
-                    let mut pair = start;
-                    let rests = self.descend(&mut pair);
-                    let distance = self.distance(&pair);
-                    if distance < least - NEARER * self.body.size() {
-                        let second = core::mem::replace(best, pair);
-                        (least, *is_at_rest) = (distance, rests);
-                        pair = second;
-                    }
-                    self.keep(best, rivals, pair);
-                }
-            }
-        }
-        false
-    }
-
     /// Keeps a rival, unless it is known, or all that are known are nearer.
-    fn keep(&self, best: &Pair, rivals: &mut [Option<Pair>; RIVALS], rival: Pair) {
+    pub(super) fn keep(&self, best: &Pair, rivals: &mut [Option<Pair>; RIVALS], rival: Pair) {
         if rivals.iter().flatten().chain([best]).any(|known| self.is_same(known, &rival)) {
             return;
         }
@@ -480,9 +365,7 @@ impl Scene<'_> {
             }
             self.evaluations += 1;
             if let Visit::Start(start) = state.cells.visit(self.body, &self.region, self.placement, bound) {
-                let is_known =
-                    state.rivals.iter().flatten().chain([&state.pair]).any(|known| Cells::holds(&start.a, &known.a));
-                state.explorer = (!is_known).then_some(start);
+                state.explorer = (!state.knows_cell_of(&start)).then_some(start);
             }
         }
     }
@@ -534,13 +417,13 @@ impl Scene<'_> {
     }
 
     /// Whether the body has an inside: no open edge.
-    fn has_inside(&self) -> bool {
+    pub(super) fn has_inside(&self) -> bool {
         self.body.edges().iter().all(|edge| edge.kind != EdgeKind::Open)
     }
 
     /// The sign test: whether the two support planes part the bodies. A rest of convex bodies is then their closest
     /// pair. A solid's nearest point needs no test.
-    fn is_global(&self, pair: &Pair) -> bool {
+    pub(super) fn is_global(&self, pair: &Pair) -> bool {
         let difference = pair.difference(self.placement);
         let of_body = pair.a.outward(self.body).dot(difference) < 0.0;
         of_body

@@ -1,7 +1,6 @@
 //! Where a body's frame is in the scene, in the form that is cheapest to move and to ask.
 
-use super::quaternion::{quaternion, turned_by};
-use crate::math::{Vec3, vec3};
+use crate::math::{Vec3, quaternion, turned_by, vec3};
 use crate::track::Placement;
 
 /// A rigid motion `Q = R (q + offset) + pivot`, `q` in the body's frame: `pivot` and `offset` stay constant while the

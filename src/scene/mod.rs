@@ -16,7 +16,6 @@ mod host_force;
 mod limits;
 mod part;
 mod path;
-mod quaternion;
 mod rigid;
 #[expect(clippy::module_inception, reason = "the scene is what the layer is named after")]
 mod scene;
@@ -28,7 +27,6 @@ pub use host_force::HOLD;
 pub use limits::Limits;
 pub use part::{Material, Motion, Part, PartState, Sphere};
 pub use path::Path;
-pub(crate) use quaternion::{product, turned_by};
 pub use rigid::{Joint, Moving, RigidBody, Tether, Wrench};
 pub use scene::Scene;
 pub use slot::{BodyStore, Slot, SlotWitness};

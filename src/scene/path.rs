@@ -1,8 +1,7 @@
 //! A body that moves as prescribed: it turns about an axis, and sways along a line, continuously.
 
 use super::frame::{Frame, axes};
-use super::quaternion::{product, quaternion};
-use crate::math::{Vec3, sin_cos, vec3};
+use crate::math::{Vec3, product, quaternion, sin_cos, vec3};
 use crate::track::Placement;
 use core::f32::consts::{PI, TAU};
 

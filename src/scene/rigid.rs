@@ -21,8 +21,7 @@
 
 use super::frame::{Frame, axes};
 use super::path::{dot, finite, is_rigid};
-use super::quaternion::{product, quaternion, turned_by};
-use crate::math::{Vec3, saturate, sqrt, vec3};
+use crate::math::{Vec3, product, quaternion, saturate, sqrt, turned_by, vec3};
 use crate::track::Placement;
 
 /// A body with a mass, its suspension, and its initial placement. Start with [`RigidBody::new`].

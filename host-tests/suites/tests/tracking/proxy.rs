@@ -7,6 +7,7 @@ use palpate::body::Body;
 use palpate::math::Vec3;
 use palpate::pair::{Proxy, ProxyError, Tool, ToolCoupling};
 use palpate::scene::BodyPose;
+use palpate_suites::between_boxes;
 use palpate_truth::generate::Random;
 
 const RATE_HZ: f32 = 4_000.0;
@@ -34,54 +35,10 @@ impl Pose {
         let position = (self.origin - centre).as_vec3().to_array();
         BodyPose { position, orientation: self.turn.to_array().map(|number| number as f32) }
     }
-
-    fn place(&self, point: DVec3) -> DVec3 {
-        self.turn * point + self.origin
-    }
 }
 
 fn coupling_at(rate_hz: f32) -> ToolCoupling {
     ToolCoupling::new(STIFFNESS[0] as f32, STIFFNESS[1] as f32, rate_hz).expect("three positive numbers")
-}
-
-fn corners(low: DVec3, high: DVec3) -> [DVec3; 8] {
-    std::array::from_fn(|signs| {
-        DVec3::from_array(std::array::from_fn(|axis| if signs >> axis & 1 == 1 { high[axis] } else { low[axis] }))
-    })
-}
-
-/// The distance of a box from another that is turned, where they are apart: from a corner of either, or between two edges.
-fn between_boxes(low: DVec3, high: DVec3, half: DVec3, pose: &Pose) -> f64 {
-    let fixed = corners(low, high);
-    let turned = corners(-half, half).map(|corner| pose.place(corner));
-    let mut nearest = f64::INFINITY;
-    for corner in turned {
-        nearest = nearest.min((corner - corner.clamp(low, high)).length());
-    }
-    for corner in fixed {
-        let inside = pose.turn.inverse() * (corner - pose.origin);
-        nearest = nearest.min((inside - inside.clamp(-half, half)).length());
-    }
-    let edges = |corners: [DVec3; 8]| {
-        let ends = move |from: usize| {
-            (0..3).filter(move |axis| from >> axis & 1 == 0).map(move |axis| (from, from | 1 << axis))
-        };
-        (0..8).flat_map(ends).map(move |(from, to)| (corners[from], corners[to] - corners[from]))
-    };
-    for (a, u) in edges(fixed) {
-        for (b, v) in edges(turned) {
-            let (across, between) = (u.cross(v), b - a);
-            if across.length() <= 1e-9 * u.length() * v.length() {
-                continue;
-            }
-            let (s, t) = (between.cross(v).dot(across), between.cross(u).dot(across));
-            let full = across.length_squared();
-            if (0.0..=full).contains(&s) && (0.0..=full).contains(&t) {
-                nearest = nearest.min((between.dot(across) / full.sqrt()).abs());
-            }
-        }
-    }
-    nearest
 }
 
 /// What the hand went through.
@@ -178,7 +135,7 @@ fn a_tool_in_a_hand_stays_outside_convex_bodies_and_its_wrench_does_not_jump() {
                     if is_ball {
                         from_ball(ball_radius, half, pose.turn, pose.origin - ball_centre)
                     } else {
-                        between_boxes(low, high, half, pose)
+                        between_boxes(low, high, half, pose.turn, pose.origin)
                     }
                 };
                 let Felt { gap, jumps, steps, out, force, torque, touched, work } =
@@ -236,7 +193,7 @@ fn a_hand_that_jumps_at_random_pushes_no_proxy_in() {
             let drawn = Pose::of(proxy.pose(), centre);
             // Higher up the dome is nearer than the box.
             if drawn.origin.z + half.length() < 0.012 {
-                *gap = gap.min(between_boxes(low, high, half, &drawn) - RADIUS_M);
+                *gap = gap.min(between_boxes(low, high, half, drawn.turn, drawn.origin) - RADIUS_M);
             }
         }
     }

@@ -1,6 +1,6 @@
 //! Orientations as unit quaternions: the vector, then the scalar.
 
-use crate::math::{Vec3, inverse_sqrt};
+use super::{Vec3, inverse_sqrt};
 
 /// `p q`: first `q`, then `p`.
 #[inline]
@@ -24,7 +24,7 @@ pub(crate) fn turned_by(half: Vec3, q: &[f32; 4]) -> [f32; 4] {
 
 /// The unit quaternion of orthonormal axes: from its largest component, which is at least a half (S. W. Shepperd,
 /// *Quaternion from rotation matrix*, 1978).
-pub(super) const fn quaternion(axes: &[Vec3; 3]) -> [f32; 4] {
+pub(crate) const fn quaternion(axes: &[Vec3; 3]) -> [f32; 4] {
     let [a, b, c] = *axes;
     let trace = a.x + b.y + c.z;
     let q = if trace > a.x && trace > b.y && trace > c.z {
