@@ -22,6 +22,7 @@ mod protection;
 pub mod sensor;
 mod serial_arm;
 mod velocity;
+mod wrist;
 
 pub use cogging::CoggingMap;
 pub use commutation::{Aligned, Commutation, ElectricalAngle};
@@ -40,6 +41,7 @@ pub use pose::ProbePose;
 pub use protection::{Endurance, PolarityCheck, Protection, SupplyRange};
 pub use serial_arm::SerialArm;
 pub use velocity::{BetweenCounts, VelocityEstimator, VelocityFilter, VelocityMethod, VelocityState};
+pub use wrist::{Mount, Wrist, WristError, WristState};
 
 use crate::math::saturate;
 
