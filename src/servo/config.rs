@@ -230,14 +230,14 @@ impl<S, K, const JOINTS: usize, G: Copy> Clone for Servo<'_, S, K, JOINTS, G> {
 
 impl<S, K, const JOINTS: usize, G: Copy> Copy for Servo<'_, S, K, JOINTS, G> {}
 
-impl<'a, S, K, const JOINTS: usize> Core<'a, S, K, JOINTS> {
+impl<'a, S: Surface, K, const JOINTS: usize> Core<'a, S, K, JOINTS> {
     const fn try_new(
         device: &'a Device<K, JOINTS>,
         surface: &'a S,
         config: Config<JOINTS>,
     ) -> Result<Self, ConfigError> {
         const { assert!(JOINTS >= 1 && JOINTS <= 3, "a device has one to three joints") };
-        if let Err(error) = check(device, &config) {
+        if let Err(error) = check::<S, K, JOINTS>(device, &config) {
             return Err(error);
         }
         let Config { controller, settings, rendering, safety, homing } = config;
@@ -278,7 +278,7 @@ impl<'a, S, K, const JOINTS: usize> Core<'a, S, K, JOINTS> {
 }
 
 /// Checks a configuration for a device.
-pub(super) const fn check<K, const JOINTS: usize>(
+pub(super) const fn check<S: Surface, K, const JOINTS: usize>(
     device: &Device<K, JOINTS>,
     config: &Config<JOINTS>,
 ) -> Result<(), ConfigError> {
@@ -288,6 +288,10 @@ pub(super) const fn check<K, const JOINTS: usize>(
     }
     if let Err(error) = rendering.check(settings.stiffness_n_per_m, 1.0 / settings.rate_hz) {
         return Err(ConfigError::Rendering(error));
+    }
+    let is_of_a_point = rendering.friction.is_some() || rendering.texture.is_some() || rendering.coupling.is_some();
+    if S::HAS_SHAPED_TOOL && is_of_a_point {
+        return Err(ConfigError::Rendering(RenderingError::ShapedTool));
     }
     if let Err(error) = safety.check(device.max_damping_n_s_per_m) {
         return Err(ConfigError::Safety(error));

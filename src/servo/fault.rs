@@ -247,7 +247,7 @@ impl ResetReason {
 }
 
 /// An event between two ticks that matters to the loop: see [`super::Servo::note`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Event {
     /// A message of the host arrived: the link is alive.
@@ -283,5 +283,11 @@ pub enum Event {
     Supply {
         /// The measured voltage.
         millivolts: u32,
+    },
+    /// The handle's orientation was sensed: of a gimbal before every tick, of an inertial sensor as often as it
+    /// answers, at least every 20 ms. Matters to a [`super::ToolSurface`].
+    Oriented {
+        /// `(x, y, z, w)`, of length 1: takes the tool's frame to the device's.
+        quaternion: [f32; 4],
     },
 }

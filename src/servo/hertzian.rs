@@ -40,6 +40,7 @@ impl<S: Surface> Surface for Hertzian<'_, S> {
     type Witness = S::Witness;
 
     const HAS_OWN_PUSH: bool = true;
+    const HAS_SHAPED_TOOL: bool = S::HAS_SHAPED_TOOL;
 
     fn rest(&self) -> S::Witness {
         self.surface.rest()
@@ -78,6 +79,10 @@ impl<S: Surface> Surface for Hertzian<'_, S> {
 
     fn choose(&self, witness: &mut S::Witness, index: u8) {
         self.surface.choose(witness, index);
+    }
+
+    fn orient(&self, witness: &mut S::Witness, orientation: [f32; 4]) {
+        self.surface.orient(witness, orientation);
     }
 
     #[inline]

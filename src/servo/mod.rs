@@ -48,6 +48,7 @@ mod soft;
 mod state;
 mod surface;
 mod tick;
+mod tool;
 mod tunable;
 mod watch;
 
@@ -62,5 +63,6 @@ pub use soft::{SoftBody, SoftContact};
 pub use state::ServoState;
 pub use surface::{BakedTables, Carrier, OnePatch, PatchWitness, Surface, TableCheck, ToolContact, Touched, Tracked};
 pub use tick::Input;
+pub use tool::{HeldTool, ToolSurface};
 pub use tunable::{Tunable, TunableState, Tuning};
 pub use watch::{Deadline, FrameBridge, Heartbeat, PeriodWindow, Stillness};

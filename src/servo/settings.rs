@@ -209,6 +209,8 @@ pub enum RenderingError {
     Ease,
     /// The slew limit is not positive.
     Slew,
+    /// Friction, texture or a virtual coupling with a tool that has a shape.
+    ShapedTool,
 }
 
 impl RenderingError {
@@ -223,6 +225,9 @@ impl RenderingError {
             Self::Passivity => "passivity control's parameters must be finite and not negative",
             Self::Ease => "easing's onset must be finite and not negative, its rate finite and positive",
             Self::Slew => "the slew limit must be positive",
+            Self::ShapedTool => {
+                "friction, texture and virtual coupling are those of a point; leave them out with a tool that has a shape"
+            }
         }
     }
 }

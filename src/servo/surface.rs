@@ -82,6 +82,10 @@ pub trait Surface: BakedTables {
     /// Whether [`Self::push`] is its own. A [`crate::scene::Scene`] calls it of such a surface alone.
     const HAS_OWN_PUSH: bool = false;
 
+    /// Whether it renders a tool with a shape ([`super::ToolSurface`]): the loop then refuses friction, texture and a
+    /// virtual coupling, which are those of a point.
+    const HAS_SHAPED_TOOL: bool = false;
+
     /// The state before the first tick.
     fn rest(&self) -> Self::Witness;
 
@@ -115,6 +119,10 @@ pub trait Surface: BakedTables {
 
     /// Selects an entry, where the surface offers several ([`super::Event::Chosen`]).
     fn choose(&self, _: &mut Self::Witness, _: u8) {}
+
+    /// The orientation of the tool, a quaternion `(x, y, z, w)` that takes its frame to the device's
+    /// ([`super::Event::Oriented`]). A surface that a point touches has no use for it.
+    fn orient(&self, _: &mut Self::Witness, _: [f32; 4]) {}
 
     /// Force starts with this tick: the loop comes to [`super::Phase::Running`].
     fn start_force(&self, _: &mut Self::Witness) {}

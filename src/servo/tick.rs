@@ -86,6 +86,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
                     }
                 }
             }
+            Event::Oriented { quaternion } => self.core.surface.orient(&mut state.contact.witness, quaternion),
             Event::Chosen { index } => self.core.surface.choose(&mut state.contact.witness, index),
             Event::Supply { millivolts } => {
                 if self.core.device.needs_supply() {

@@ -156,7 +156,7 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS
     pub fn request(&mut self, tuning: Tuning) -> Result<(), ConfigError> {
         let config = self.servo.config();
         let settings = tuning.on(config.settings);
-        check(self.servo.core.device, &Config { settings, ..config })?;
+        check::<S, K, JOINTS>(self.servo.core.device, &Config { settings, ..config })?;
         let ticks = settings.soft_start_s.max(MIN_RAMP_S) * settings.rate_hz;
         self.target = settings;
         // The cast saturates, above anything that a loop lives for.
@@ -386,7 +386,7 @@ mod tests {
                 let _ = tunable.tick(&mut state, sensors(true));
                 let core = &state.servo.core;
                 let Config { settings, .. } = state.servo.config();
-                assert_eq!(check(&DEVICE, &Config { settings, ..CONFIG }), Ok(()));
+                assert_eq!(check::<SplinePatch, _, 3>(&DEVICE, &Config { settings, ..CONFIG }), Ok(()));
                 let gains = |wall: &Penalty| [wall.stiffness_n_per_m, wall.damping_n_s_per_m, wall.max_force_n];
                 let ends = [gains(&from), [to.stiffness_n_per_m, to.damping_n_s_per_m, most]];
                 for (gain, now) in gains(&core.penalty).into_iter().enumerate() {

@@ -17,6 +17,7 @@ mod mujoco;
 mod no_alarm;
 mod passivity;
 mod protected;
+mod shaped;
 mod signs;
 mod surfaces;
 mod through;

@@ -1,0 +1,274 @@
+//! A tool with a shape in the loop: the drawn tool is held outside of the body, and the hand's is coupled to it.
+
+use super::Settings;
+use super::surface::{BakedTables, Surface, Touched, Tracked, witness_words};
+use crate::body::{Body, TableCursor};
+use crate::math::{Vec3, inverse_sqrt, product, sqrt};
+use crate::pair::{DEFAULT_CELLS, Proxy, ProxyError, Tool, ToolCoupling};
+use crate::patch::{SecondDerivatives, SurfacePoint};
+use crate::scene::BodyPose;
+use crate::track::{BoundaryMode, Contact, Controller, Probe, Witness};
+
+/// Relative to the body's size: a stretch below is rounding.
+const NO_STRETCH: f32 = 1.0e-6;
+/// Seconds after which an orientation is old.
+const MAX_AGE_S: f32 = 0.02;
+/// Maximum angular speed of a hand, rad/s: the proxy turns no faster.
+const MAX_TURN_RAD_PER_S: f32 = 40.0;
+
+/// A tool of some shape on a body, for a device that senses the orientation of its handle and drives three joints.
+///
+/// The tool's frame has its origin at the probe, about which the handle turns, and the orientation of the last
+/// [`super::Event::Oriented`]: send one before every tick, from the encoders of a gimbal ([`crate::device::Wrist`]) or
+/// an inertial sensor. The drawn tool ([`Proxy`]) has the hand's orientation and lies where no contact is closed; the
+/// loop's wall pulls the probe to it, with its stiffness, damping, limits and slew.
+///
+/// There is no force before the first orientation, until all contacts are located (some 30 to 200 ticks), and while the
+/// hand's tool is in the body. An orientation that is older than 20 ms, no rotation, or 40 rad/s from the one before
+/// ends contact as an implausible one does ([`super::ContactLimits`]): the force fades, the contacts are located again.
+///
+/// Without torque the force does not conserve energy along paths that turn the tool in contact (Barbagli & Salisbury
+/// 2003): keep the device's own damping above half a tick's stiffness. Friction, texture and the virtual coupling are
+/// those of a point, and refused.
+///
+/// ```
+/// use palpate::body::{Aligned, Body, BodyBuffer, Edge, Face};
+/// use palpate::math::{Vec3, vec3};
+/// use palpate::pair::{Core, Tool};
+/// use palpate::servo::{Settings, Surface, ToolSurface, Tracked};
+/// use palpate::track::{Contact, Controller, Probe};
+///
+/// # static FILE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/boards/bodies/capped_box.palp")));
+/// # let (mut faces, mut edges) = ([Face::VACANT; 6], [Edge::VACANT; 12]);
+/// # let body = Body::from_bytes(&FILE.0, BodyBuffer { faces: &mut faces, edges: &mut edges })?;
+/// // A finger of 24 mm, 6 mm thick, beside a box of 60 × 40 × 20 mm whose corner is the origin.
+/// let finger = Tool::new(Core::Segment { half: 0.009 }, 0.003).unwrap();
+/// let settings = Settings { rate_hz: 4_000.0, ..Settings::DEFAULT };
+/// let surface = ToolSurface::new(&body, finger, &settings).unwrap();
+/// let mut held = surface.rest();
+/// for tick in 0..2_000 {
+///     surface.orient(&mut held, [0.0, 0.0, 0.0, 1.0]);
+///     let x = if tick < 1_000 { 0.08 } else { 0.08 - 18e-6 * (tick - 999) as f32 };
+///     surface.follow(&Controller::SecondOrder, &mut held, Probe::at(vec3(x, 0.02, 0.01)), 2.5e-4);
+/// }
+/// // The probe is 2 mm from the side plus the radius: 1 mm too deep.
+/// assert_eq!(held.contact(), Contact::Touching);
+/// assert!((held.gap() + 0.001).abs() < 2e-5);
+/// # Ok::<(), palpate::body::FileError>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct ToolSurface<'a> {
+    body: &'a Body<'a>,
+    tool: Tool<'a>,
+    coupling: ToolCoupling,
+    cells: u16,
+    period: f32,
+    max_age: u16,
+    /// Half the maximum turn in a tick, radians.
+    half_turn: f32,
+}
+
+/// State of a tool in the loop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HeldTool {
+    proxy: Proxy,
+    orientation: [f32; 4],
+    /// Ticks since the last orientation.
+    age: u16,
+    is_plausible: bool,
+    witness: Witness,
+    gap: f32,
+    contact: Contact,
+}
+
+impl<'a> ToolSurface<'a> {
+    /// A body and a tool, for a loop of these settings. Its default work visits 16 cells of the audit a tick on a body
+    /// that is not convex ([`Self::with_cells`]).
+    ///
+    /// # Errors
+    /// A tool that is too thin, and settings whose rate or stiffness is not positive and finite.
+    pub const fn new(body: &'a Body<'a>, tool: Tool<'a>, settings: &Settings) -> Result<Self, ProxyError> {
+        let rate = settings.rate_hz;
+        let Some(coupling) = ToolCoupling::without_torque(settings.stiffness_n_per_m, rate) else {
+            return Err(ProxyError::Coupling);
+        };
+        if !tool.is_thick() {
+            return Err(ProxyError::Thin);
+        }
+        // The casts saturate.
+        let max_age = (MAX_AGE_S * rate) as u16;
+        Ok(Self {
+            body,
+            tool,
+            coupling,
+            cells: DEFAULT_CELLS,
+            period: 1.0 / rate,
+            max_age: if max_age == 0 { 1 } else { max_age },
+            half_turn: 0.5 * MAX_TURN_RAD_PER_S / rate,
+        })
+    }
+
+    /// The same with another number of cells of the audit in a tick, on a body that is not convex.
+    #[must_use]
+    pub const fn with_cells(self, cells: u16) -> Self {
+        Self { cells, ..self }
+    }
+
+    /// The body.
+    pub const fn body(&self) -> &'a Body<'a> {
+        self.body
+    }
+
+    /// The tool.
+    pub const fn tool(&self) -> &Tool<'a> {
+        &self.tool
+    }
+}
+
+impl HeldTool {
+    /// The drawn tool and its contacts.
+    pub const fn proxy(&self) -> &Proxy {
+        &self.proxy
+    }
+
+    /// The orientation of the tool, a quaternion `(x, y, z, w)` of the device's frame.
+    pub const fn orientation(&self) -> [f32; 4] {
+        self.orientation
+    }
+
+    /// Why there is no contact with the body, if it was given up or the tool does not lie outside.
+    pub const fn given_up(&self) -> Option<ProxyError> {
+        self.proxy.given_up()
+    }
+}
+
+impl Surface for ToolSurface<'_> {
+    type Witness = HeldTool;
+
+    const HAS_SHAPED_TOOL: bool = true;
+
+    fn rest(&self) -> HeldTool {
+        let surface = SurfacePoint { point: Vec3::ZERO, tangent_u: Vec3::ZERO, tangent_v: Vec3::ZERO };
+        let (second, mode) = (SecondDerivatives::NONE, BoundaryMode::Interior);
+        HeldTool {
+            proxy: Proxy::unlocated(),
+            orientation: [0.0, 0.0, 0.0, 1.0],
+            age: u16::MAX,
+            is_plausible: false,
+            witness: Witness { parameters: [0.0; 2], surface, second, mode, is_free: true, halvings: 0 },
+            gap: 0.0,
+            contact: Contact::Behind,
+        }
+    }
+
+    fn is_for(&self, period: f32) -> bool {
+        (period - self.period).abs() <= 1e-3 * self.period
+    }
+
+    /// One tick of the proxy: bounded work, as [`Proxy::tick_located`]'s.
+    fn follow(&self, _: &Controller, held: &mut HeldTool, probe: Probe, _: f32) -> Touched {
+        held.age = held.age.saturating_add(1);
+        let is_known = held.is_plausible && held.age <= self.max_age;
+        let orientation = if is_known { held.orientation } else { [0.0; 4] };
+        let hand = BodyPose { position: probe.position.to_array(), orientation };
+        let was_holding = held.proxy.is_holding();
+        held.proxy.tick_located(self.body, &self.tool, &self.coupling, &hand, self.cells);
+        held.show();
+        if !held.proxy.is_holding() {
+            held.gap = 0.0;
+            // In this tick the loop still sees the contact that it is to release.
+            let unexplained = was_holding && held.contact == Contact::Touching;
+            if !unexplained {
+                held.contact = Contact::Behind;
+            }
+            return Touched { normal: Vec3::ZERO, rejected: false, unexplained };
+        }
+        let stretch = held.proxy.stretch();
+        let squared = stretch.length_squared();
+        let smallest = NO_STRETCH * self.body.size();
+        let (gap, away, contact) = if squared > smallest * smallest {
+            (-sqrt(squared), stretch, Contact::Touching)
+        } else {
+            (held.proxy.distance(), held.proxy.difference(), Contact::InFront)
+        };
+        (held.gap, held.contact) = (gap, contact);
+        let squared = away.length_squared();
+        let normal = if squared > f32::MIN_POSITIVE { away * -inverse_sqrt(squared) } else { Vec3::ZERO };
+        Touched { normal, rejected: false, unexplained: false }
+    }
+
+    fn release(&self, held: &mut HeldTool) {
+        held.proxy = Proxy::unlocated();
+        (held.contact, held.gap) = (Contact::Behind, 0.0);
+    }
+
+    fn orient(&self, held: &mut HeldTool, orientation: [f32; 4]) {
+        let [x, y, z, w] = held.orientation;
+        let [a, b, c, _] = product(&orientation, &[-x, -y, -z, w]);
+        let sine_squared = a * a + b * b + c * c;
+        let ticks = f32::from(held.age) + 1.0;
+        let most = self.half_turn * ticks;
+        let is_first = held.age > self.max_age;
+        // A NaN fails too. The proxy refuses numbers that are no rotation.
+        held.is_plausible = is_first || sine_squared <= most * most;
+        (held.orientation, held.age) = (orientation, 0);
+    }
+}
+
+impl HeldTool {
+    /// The body's witness point as the loop reports it.
+    fn show(&mut self) {
+        let foot = &self.proxy.tracker().pair().a;
+        let (surface, second) = (foot.curved.surface, foot.curved.second);
+        self.witness = Witness { parameters: foot.parameters, surface, second, ..self.witness };
+    }
+}
+
+impl BakedTables for ToolSurface<'_> {
+    fn table_word(&self, cursor: TableCursor) -> Option<u32> {
+        self.body.table_word(cursor)
+    }
+
+    fn table_records(&self) -> u32 {
+        self.body.table_records()
+    }
+
+    fn baked_crc(&self) -> Option<u32> {
+        self.body.baked_crc()
+    }
+}
+
+impl Tracked for HeldTool {
+    fn witness(&self) -> &Witness {
+        &self.witness
+    }
+
+    fn gap(&self) -> f32 {
+        self.gap
+    }
+
+    fn contact(&self) -> Contact {
+        self.contact
+    }
+
+    /// The face of the pair's witness point.
+    fn feature(&self) -> u16 {
+        self.proxy.tracker().pair().a.face
+    }
+
+    /// The drawn tool's pose, the hand's orientation and the pair, from which all else of a tick follows or shows in the
+    /// next.
+    fn for_each_word(&self, mut take: impl FnMut(u32)) {
+        let pose = self.proxy.pose();
+        for number in pose.position.iter().chain(&pose.orientation).chain(&self.orientation) {
+            take(number.to_bits());
+        }
+        take(u32::from(self.age) | u32::from(self.is_plausible) << 16 | (self.contact as u32) << 17);
+        take(u32::from(self.proxy.is_holding()) | u32::from(self.feature()) << 1);
+        for coordinate in self.proxy.tracker().pair().b.point().to_array() {
+            take(coordinate.to_bits());
+        }
+        take(self.gap.to_bits());
+        witness_words(&self.witness, take);
+    }
+}
