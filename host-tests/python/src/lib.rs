@@ -8,6 +8,7 @@ mod body;
 mod closest;
 mod devices;
 mod evaluate;
+mod knob;
 mod link;
 mod methods;
 mod model;
@@ -31,6 +32,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<tracker::Tracker>()?;
     module.add_class::<pair::Pair>()?;
     module.add_class::<link::Link>()?;
+    module.add_class::<knob::Knob>()?;
     module.add_class::<rig::Device>()?;
     module.add_class::<rig::Loop>()?;
     module.add_class::<rig::Plant>()?;

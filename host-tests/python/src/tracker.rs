@@ -5,6 +5,7 @@ use crate::body::Body;
 use crate::refusal::Refusal;
 use numpy::PyReadonlyArray2;
 use palpate::body::BodyWitness;
+use palpate::math::Vec3;
 use palpate::servo::Tracked as _;
 use palpate::track::{Controller, FirstOrder, Probe};
 use pyo3::prelude::*;
@@ -74,7 +75,9 @@ impl Ticks {
             let step = body.tables.step(controller, state, Probe::at(body.local(*given)), PERIOD);
             ticks.point.push(body.placed(state.witness.surface.point));
             ticks.normal.push(state.normal.to_array());
-            ticks.gap.push(state.gap);
+            // Without a normal there is none yet, and 0 would be contact.
+            let has_gap = state.is_located && state.normal != Vec3::ZERO;
+            ticks.gap.push(if has_gap { state.gap } else { f32::NAN });
             ticks.parameters.push(state.witness.parameters);
             ticks.feature.push(state.feature());
             ticks.contact.push(state.contact as u8);

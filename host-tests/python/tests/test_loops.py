@@ -21,6 +21,9 @@ def test_a_tracker_arrives_at_the_closest_point_and_goes_on_where_it_was(capped_
     for index, column in enumerate(whole):
         same_bits(column, np.concatenate([half[index] for half in halves]))
     assert whole.located[-1] and whole.contact[-1] == 1
+    # No gap of 0, which would be contact, before there is one.
+    assert np.isnan(whole.gap[0]) and abs(whole.gap[1] - capped_box.closest(path[1:2]).gap[0]) < 1e-6
+    np.testing.assert_array_equal(np.isnan(whole.gap), ~whole.located | (whole.normal == 0).all(axis=1))
     cold = capped_box.closest(path[-1:], signed=False)
     # It follows within a tick's lag, of second order in a step of 6 micrometres.
     assert abs(np.linalg.norm(whole.point[-1] - path[-1]) - cold.gap[0]) < 1e-6 * capped_box.size

@@ -10,7 +10,7 @@ import nbformat
 import palpate
 import pytest
 from nbclient import NotebookClient
-from palpate import bodies, loops
+from palpate import bodies, knob, loops
 
 from conftest import FOLDER, ROOT
 
@@ -37,7 +37,7 @@ def test_there_are_three_notebooks_and_no_outputs_in_them():
 
 
 def test_the_examples_in_the_docstrings_hold():
-    done = [doctest.testmod(module) for module in (palpate, bodies, loops)]
+    done = [doctest.testmod(module) for module in (palpate, bodies, knob, loops)]
     assert sum(tried.failed for tried in done) == 0 and sum(tried.attempted for tried in done) > 5
 
 
@@ -49,7 +49,7 @@ def test_everything_public_says_what_it_is():
             for member, value in vars(item).items():
                 is_public = not member.startswith("_") and member not in getattr(item, "_fields", ())
                 assert not is_public or inspect.getdoc(value), f"{name}.{member}"
-    for columns in (palpate.Closest, palpate.Ticks, palpate.Curved, palpate.Apart, palpate.Run, palpate.Records):
+    for columns in (palpate.Closest, palpate.Ticks, palpate.Curved, palpate.Apart, palpate.Run, palpate.Records, palpate.Dials, palpate.Turned):
         for field in columns._fields:
             assert field in columns.__doc__, f"{columns.__name__}.{field}: neither shape nor unit"
 

@@ -14,9 +14,10 @@ threads run.
 
 from ._native import ArrayError, FileError, LinkError, ModelError, SettingsError
 from .bodies import Body, Pair, Tracker
+from .knob import Knob
 from .loops import Link, devices, simulate
 from .outside import Outside
-from .results import Apart, Closest, Curved, Records, Run, Settled, Ticks
+from .results import Apart, Closest, Curved, Dials, Records, Run, Settled, Ticks, Turned
 from .rig import Device, Loop, Plant
 from .surfaces import patch_of
 
@@ -27,7 +28,9 @@ __all__ = [
     "Closest",
     "Curved",
     "Device",
+    "Dials",
     "FileError",
+    "Knob",
     "Link",
     "LinkError",
     "Loop",
@@ -41,6 +44,7 @@ __all__ = [
     "SettingsError",
     "Ticks",
     "Tracker",
+    "Turned",
     "devices",
     "patch_of",
     "simulate",

@@ -41,7 +41,8 @@ class Ticks(NamedTuple):
 
     point : (n, 3) float64 -- the witness point, m, in the frame of the model.
     normal : (n, 3) float32 -- unit vector out of the body there.
-    gap : (n,) float32 -- signed gap along it, m; negative inside.
+    gap : (n,) float32 -- signed gap along it, m; negative inside. NaN in the first ticks, until it is
+        `located` and has a normal.
     parameters : (n, 2) float32 -- (u, v) on a face, (t, 0) on an edge.
     feature : (n,) uint16 -- index of a face, of an edge plus 0x4000, of a vertex plus 0x8000.
     contact : (n,) uint8 -- 0 behind the surface, 1 in front of it, 2 touching.
@@ -100,6 +101,44 @@ class Apart(NamedTuple):
     first: NDArray[np.float64]
     second: NDArray[np.float64]
     distance: NDArray[np.float32]
+
+
+class Dials(NamedTuple):
+    """A knob's dial, a row a report: 100 a second.
+
+    tick : (n,) uint32 -- the servo tick.
+    angle : (n,) float64 -- with whole turns, rad.
+    rate : (n,) float32 -- rad/s.
+    torque : (n,) float32 -- of the feel, N·m, before soft start and limits.
+    feel : (n,) uint8 -- the active feel: an index of the knob's table, or the one after it for yours.
+    detent : (n,) int32 -- number of the nearest detent: a change is a detent that was passed.
+    end : (n,) int8 -- -1 below the end stops, 1 above them, 0 between.
+    kept : (n,) uint8 -- the stored feel at the last reset: 0 none, 1 used, 2 damaged or beyond the motor.
+    """
+
+    tick: NDArray[np.uint32]
+    angle: NDArray[np.float64]
+    rate: NDArray[np.float32]
+    torque: NDArray[np.float32]
+    feel: NDArray[np.uint8]
+    detent: NDArray[np.int32]
+    end: NDArray[np.int8]
+    kept: NDArray[np.uint8]
+
+
+class Turned(NamedTuple):
+    """A simulated knob, a row a servo tick.
+
+    angle : (n,) float64 -- by the encoder, as springs and end stops count it, rad.
+    torque : (n,) float64 -- of the feel, N·m, before soft start and limits.
+    shaft_angle : (n,) float64 -- of the simulated shaft, rad.
+    shaft_torque : (n,) float64 -- of motor and cogging on the shaft, N·m.
+    """
+
+    angle: NDArray[np.float64]
+    torque: NDArray[np.float64]
+    shaft_angle: NDArray[np.float64]
+    shaft_torque: NDArray[np.float64]
 
 
 class Run(NamedTuple):
