@@ -88,7 +88,7 @@ fn wind<K, const JOINTS: usize>(
     let window = per_turn.wrapping_mul(WINDOW);
     let turned = inside > window || inside < window.wrapping_neg();
     if turned {
-        let whole = if per_turn == 0 { 0 } else { inside / per_turn / WINDOW * WINDOW };
+        let whole = if per_turn > 0 { inside / per_turn / WINDOW * WINDOW } else { 0 };
         sensors.turns = sensors.turns.wrapping_add(whole);
         let out = sensors.turns.wrapping_mul(per_turn);
         inside = count.wrapping_sub(out);
