@@ -111,7 +111,7 @@ enum {
     PALPATE_DEVICE_ENCODER = 32,           /**< Radians a count zero or not finite, or a zero not finite. */
     PALPATE_DEVICE_MOTOR = 33,             /**< Torque zero or not finite, or no feed of a motor. */
     PALPATE_DEVICE_FRICTION = 34,          /**< Dry friction negative or not finite. */
-    PALPATE_DEVICE_RANGE = 35,             /**< A least angle not below the greatest. */
+    PALPATE_DEVICE_RANGE = 35,             /**< A least angle not below the greatest, or no whole counts a turn. */
     PALPATE_DEVICE_LIMIT = 36,             /**< A limit of the whole device not positive and finite. */
     PALPATE_SETTINGS_RATE = 48,            /**< Rate not between 1 Hz and 100 kHz. */
     PALPATE_SETTINGS_STIFFNESS = 49,       /**< Stiffness not between 0 and the device's greatest. */
@@ -142,7 +142,21 @@ enum {
     PALPATE_SOFT_MODE = 81,                /**< A limit, a bound or a bump's radius negative. */
     PALPATE_SOFT_MOTION = 82,              /**< Stiffness not positive, mass or damping negative, or too fast. */
     PALPATE_SOFT_RATE = 83,                /**< The modes' rate not positive and finite. */
-    PALPATE_SOFT_NONE = 84                 /**< The loop's body has no modes. */
+    PALPATE_SOFT_NONE = 84,                /**< The loop's body has no modes. */
+    PALPATE_KNOB_NONE = 88,          /**< The loop renders no dial. */
+    PALPATE_KNOB_DETENTS = 89,       /**< Detents: a pitch outside 1e-4 rad to half a turn, or another wrong number. */
+    PALPATE_KNOB_CLICKS = 90,        /**< Clicks: the same, or a snap outside 0.5 to 1. */
+    PALPATE_KNOB_TEXTURE = 91,       /**< A texture: as detents. */
+    PALPATE_KNOB_SPRING = 92,        /**< A spring with a negative number, or one not finite. */
+    PALPATE_KNOB_ENDS = 93,          /**< End stops out of order, or a negative number. */
+    PALPATE_KNOB_DAMPING = 94,       /**< Damping negative or not finite. */
+    PALPATE_KNOB_FRICTION = 95,      /**< Friction: torque negative, or rate not positive. */
+    PALPATE_KNOB_NOTCH = 96,         /**< A notch: a width outside 1e-4 rad to half a turn, or another wrong number. */
+    PALPATE_KNOB_MAX_STIFFNESS = 97, /**< All parts: stiffer than max_stiffness times radius squared. */
+    PALPATE_KNOB_MAX_DAMPING = 98,   /**< All parts: more damping than max_damping times radius squared. */
+    PALPATE_KNOB_MAX_TORQUE = 99,    /**< All parts: more torque than max_force times radius. */
+    PALPATE_KNOB_RELEASE_RATE = 100, /**< Release rate not positive and finite. */
+    PALPATE_KNOB_FAR = 101           /**< The part would take the dial further than an eighth of a turn. */
 };
 
 /** A status in a sentence that stays for ever; "unknown" of a code that is none. */
@@ -443,6 +457,92 @@ typedef struct palpate_paddle {
     float handle;      /**< From the axis to the hand, m. */
     float mass_moment; /**< kg·m; 0 if balanced or not known. */
 } palpate_paddle;
+
+/** A dial with one motor, whose driver commutates by itself: a knob. One joint, the only one that may turn without end. */
+typedef struct palpate_dial {
+    float radius;       /**< Of the rim, m; the device's limits of force are at the rim. */
+    float release_rate; /**< How fast the torque of an old feel is let go of, N·m/s. */
+} palpate_dial;
+
+/** A torque on a dial that repeats: `-torque * sin(2 pi (angle - centre) / pitch)`. */
+typedef struct palpate_wave {
+    float pitch;  /**< From one detent to the next, rad, 1e-4 to half a turn. */
+    float torque; /**< Maximum, N·m. */
+    float centre; /**< Where one detent is, rad, within a turn. */
+} palpate_wave;
+
+/** Detents of a dial that snap, numbered; detent 0 is at angle 0. */
+typedef struct palpate_clicks {
+    float pitch;          /**< From one to the next, rad, 1e-4 to half a turn. */
+    float stiffness;      /**< N·m/rad. */
+    float damping;        /**< N·m·s/rad. */
+    float snap;           /**< How far out the next one takes over, in pitches, 0.5 to 1. */
+    int32_t first;        /**< The first detent. */
+    int32_t last;         /**< The last detent. */
+    float wall_stiffness; /**< Beyond either, N·m/rad. */
+    float max_torque;     /**< N·m. */
+} palpate_clicks;
+
+/** A spring that turns a dial back. */
+typedef struct palpate_spring {
+    float stiffness;  /**< N·m/rad. */
+    float rest;       /**< Where it rests, rad. */
+    float max_torque; /**< N·m. */
+} palpate_spring;
+
+/** End stops of a dial. */
+typedef struct palpate_ends {
+    float between[2]; /**< Where they are, rad. */
+    float stiffness;  /**< N·m/rad. */
+    float damping;    /**< N·m·s/rad; it only pushes. */
+} palpate_ends;
+
+/** Dry friction of a dial. */
+typedef struct palpate_dial_friction {
+    float torque;   /**< N·m. */
+    float whole_at; /**< Rate from which on it is whole, rad/s; below, it is damping. */
+} palpate_dial_friction;
+
+/** A click of a dial at one position. */
+typedef struct palpate_notch {
+    float at;     /**< Where, rad. */
+    float width;  /**< From one side to the other, rad, 1e-4 to half a turn. */
+    float torque; /**< Maximum, N·m. */
+} palpate_notch;
+
+/** The feel of a dial, a sum of parts. A part whose numbers are all 0 is none: `{0}` turns freely. */
+typedef struct palpate_feel {
+    palpate_wave detents;           /**< Detents that one turns through smoothly. */
+    palpate_clicks clicks;          /**< Detents that snap. */
+    palpate_wave texture;           /**< Texture between detents. */
+    palpate_spring spring;          /**< A spring. */
+    palpate_ends ends;              /**< End stops. */
+    float damping;                  /**< Everywhere, N·m·s/rad. */
+    palpate_dial_friction friction; /**< Dry friction. */
+    palpate_notch notch;            /**< A click at one position. */
+} palpate_feel;
+
+/** The parts of palpate_servo_set_feel(). */
+enum {
+    PALPATE_FEEL_FREE = 0,     /**< No part is left. */
+    PALPATE_FEEL_DETENTS = 1,  /**< palpate_feel::detents. */
+    PALPATE_FEEL_CLICKS = 2,   /**< palpate_feel::clicks. */
+    PALPATE_FEEL_TEXTURE = 3,  /**< palpate_feel::texture. */
+    PALPATE_FEEL_SPRING = 4,   /**< palpate_feel::spring. */
+    PALPATE_FEEL_ENDS = 5,     /**< palpate_feel::ends. */
+    PALPATE_FEEL_DAMPING = 6,  /**< palpate_feel::damping. */
+    PALPATE_FEEL_FRICTION = 7, /**< palpate_feel::friction. */
+    PALPATE_FEEL_NOTCH = 8     /**< palpate_feel::notch. */
+};
+
+/** A dial after a tick. */
+typedef struct palpate_turned {
+    int32_t turns;  /**< Whole turns beside the angle. */
+    float angle;    /**< rad. */
+    float torque;   /**< Of the feel, N·m, before soft start and limits. */
+    int32_t detent; /**< The nearest detent or click. */
+    int32_t end;    /**< -1 below the end stops, 1 above, 0 between them. */
+} palpate_turned;
 
 /** A loop's settings. Begin with palpate_settings_recommended(). */
 typedef struct palpate_settings {
@@ -750,6 +850,46 @@ palpate_status palpate_servo_start_paddle_soft_protected(palpate_servo *servo, s
                                                          const palpate_soft_body *body,
                                                          const palpate_settings *settings,
                                                          const palpate_protection *protection, uint32_t reset);
+
+/**
+ * Starts a loop without protection on a dial: the force is the feel's, and there is no body. Stiffness and damping of
+ * the settings do nothing. Where force starts, spring, end stops and range of clicks rest where the dial is then.
+ *
+ * @param servo       memory for the loop
+ * @param servo_bytes `sizeof` it
+ * @param dial        the dial
+ * @param device      the device's numbers; of a dial that turns without end the range is -INFINITY to INFINITY
+ * @param feel        the feel to start with
+ * @param settings    the settings
+ * @param reset       why the chip was reset
+ */
+palpate_status palpate_servo_start_dial(palpate_servo *servo, size_t servo_bytes, const palpate_dial *dial,
+                                        const palpate_device *device, const palpate_feel *feel,
+                                        const palpate_settings *settings, uint32_t reset);
+/** The same with protection. */
+palpate_status palpate_servo_start_dial_protected(palpate_servo *servo, size_t servo_bytes, const palpate_dial *dial,
+                                                  const palpate_device *device, const palpate_feel *feel,
+                                                  const palpate_settings *settings,
+                                                  const palpate_protection *protection, uint32_t reset);
+
+/**
+ * Sets one part of a dial's feel between two ticks, with the tick's interrupt masked; the other parts stay. The torque
+ * does not step: the difference decays at palpate_dial::release_rate. A refused part changes nothing; a part that would
+ * take the dial further than an eighth of a turn is refused.
+ *
+ * @param servo the loop
+ * @param part  which, such as #PALPATE_FEEL_DETENTS
+ * @param feel  holds the part; nothing else of it is looked at
+ */
+palpate_status palpate_servo_set_feel(palpate_servo *servo, uint32_t part, const palpate_feel *feel);
+
+/**
+ * The dial after the last tick.
+ *
+ * @param servo the loop
+ * @param dial  where it goes
+ */
+palpate_status palpate_servo_dial(palpate_servo *servo, palpate_turned *dial);
 
 /**
  * One tick, from encoder counts to duties. The output is off unless the call comes back with #PALPATE_OK.

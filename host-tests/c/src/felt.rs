@@ -38,6 +38,18 @@ impl<S: Surface> Surface for Felt<S> {
         self.0.release(witness);
     }
 
+    fn choose(&self, witness: &mut S::Witness, index: u8) {
+        self.0.choose(witness, index);
+    }
+
+    fn start_force(&self, witness: &mut S::Witness) {
+        self.0.start_force(witness);
+    }
+
+    fn turn(&self, witness: &mut S::Witness, turns: i32) {
+        self.0.turn(witness, turns);
+    }
+
     #[inline]
     fn is_too_deep(&self, witness: &S::Witness) -> bool {
         self.0.is_too_deep(witness)

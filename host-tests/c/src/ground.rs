@@ -1,23 +1,42 @@
-//! The ground of a loop: a body, rigid or one that gives way.
+//! The ground of a loop: a body, rigid or one that gives way, or a dial.
 
 use crate::body::{Loaded, Standing};
 use crate::felt::Felt;
-use crate::handle::{Handle, Kind};
+use crate::handle::Handle;
 use crate::soft::{SoftStanding, Softened};
 use crate::status::Status;
 use palpate_core::body::Body;
-use palpate_core::servo::{SoftBody, Surface};
+use palpate_core::servo::{Knob, KnobWitness, SoftBody, Surface};
 
-/// A handle that a loop can render.
-pub trait Rendered: Kind {
+/// A ground that a loop can render: the handle of a body, or a dial.
+pub trait Rendered {
     /// The surface of the loop.
-    type Surface: Surface + 'static;
+    type Surface: Dialled + 'static;
+    /// Its own memory in the loop's.
+    type Kept: 'static;
 
     /// To stand on it.
     ///
     /// # Safety
-    /// As [`Handle::get`], for as long as anything stands on it.
-    unsafe fn stand(place: *const Handle<Self>) -> Result<(Ground, &'static Felt<Self::Surface>), Status>;
+    /// As [`Handle::get`], for as long as anything stands on it; `kept` is memory of the loop, which stays.
+    unsafe fn stand(self, kept: *mut Self::Kept) -> Result<(Ground, &'static Felt<Self::Surface>), Status>;
+}
+
+/// A surface that may be a dial.
+pub trait Dialled: Surface {
+    /// The dial and its state, if it is one.
+    fn dial<'a>(&'a self, _: &'a mut Self::Witness) -> Option<(&'a Knob, &'a mut KnobWitness)> {
+        None
+    }
+}
+
+impl Dialled for Body<'_> {}
+impl Dialled for SoftBody<'_> {}
+
+impl Dialled for Knob {
+    fn dial<'a>(&'a self, state: &'a mut KnobWitness) -> Option<(&'a Knob, &'a mut KnobWitness)> {
+        Some((self, state))
+    }
 }
 
 /// The handle that a loop stands on.
@@ -25,6 +44,8 @@ pub trait Rendered: Kind {
 pub enum Ground {
     Rigid(Standing),
     Soft(SoftStanding),
+    /// None: the surface lies in the loop itself.
+    Own,
 }
 
 impl Ground {
@@ -38,27 +59,44 @@ impl Ground {
             match self {
                 Self::Rigid(standing) => standing.body().map(|_| ()),
                 Self::Soft(standing) => standing.check(),
+                Self::Own => Ok(()),
             }
         }
     }
 }
 
-impl Rendered for Loaded {
+impl Rendered for *const Handle<Loaded> {
     type Surface = Body<'static>;
+    type Kept = ();
 
-    unsafe fn stand(place: *const Handle<Self>) -> Result<(Ground, &'static Felt), Status> {
+    unsafe fn stand(self, _: *mut ()) -> Result<(Ground, &'static Felt), Status> {
         // SAFETY: by the caller's promise.
-        let (standing, felt) = unsafe { Standing::on(place) }?;
+        let (standing, felt) = unsafe { Standing::on(self) }?;
         Ok((Ground::Rigid(standing), felt))
     }
 }
 
-impl Rendered for Softened {
+impl Rendered for *const Handle<Softened> {
     type Surface = SoftBody<'static>;
+    type Kept = ();
 
-    unsafe fn stand(place: *const Handle<Self>) -> Result<(Ground, &'static Felt<SoftBody<'static>>), Status> {
+    unsafe fn stand(self, _: *mut ()) -> Result<(Ground, &'static Felt<SoftBody<'static>>), Status> {
         // SAFETY: by the caller's promise.
-        let (standing, felt) = unsafe { Self::stand(place) }?;
+        let (standing, felt) = unsafe { Softened::stand(self) }?;
         Ok((Ground::Soft(standing), felt))
+    }
+}
+
+impl Rendered for Knob {
+    type Surface = Self;
+    type Kept = Felt<Self>;
+
+    unsafe fn stand(self, kept: *mut Felt<Self>) -> Result<(Ground, &'static Felt<Self>), Status> {
+        // SAFETY: by the caller's promise.
+        let felt = unsafe {
+            kept.write(Felt(self));
+            &*kept
+        };
+        Ok((Ground::Own, felt))
     }
 }

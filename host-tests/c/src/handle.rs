@@ -48,9 +48,27 @@ impl<T: Kind> Handle<T> {
     pub unsafe fn fill(place: *mut Self, value: T) {
         // SAFETY: a place that was looked at.
         unsafe {
-            addr_of_mut!((*place).value).write(MaybeUninit::new(value));
-            addr_of_mut!((*place).mark).write(Self::mark_at(place));
+            Self::value(place).write(value);
+            Self::seal(place);
         }
+    }
+
+    /// Where the value goes, to be written part by part.
+    ///
+    /// # Safety
+    /// The place comes from [`Self::vacate`].
+    pub unsafe fn value(place: *mut Self) -> *mut T {
+        // SAFETY: within the handle.
+        unsafe { addr_of_mut!((*place).value) }.cast()
+    }
+
+    /// Makes the handle of a value that is there.
+    ///
+    /// # Safety
+    /// The place comes from [`Self::vacate`], and its value was written.
+    pub unsafe fn seal(place: *mut Self) {
+        // SAFETY: within the handle.
+        unsafe { addr_of_mut!((*place).mark).write(Self::mark_at(place)) };
     }
 
     /// Where the value lies, if it is a handle.

@@ -15,6 +15,7 @@ mod ground;
 mod handle;
 mod homing;
 mod homing_calls;
+mod knob;
 mod link;
 mod mechanisms;
 mod memory;

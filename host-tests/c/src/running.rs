@@ -1,12 +1,15 @@
 //! A loop that runs, whatever its mechanism and its guard.
 
 use crate::felt::Felt;
+use crate::ground::Dialled;
 use crate::homing::HomingNumbers;
 use crate::state::{MotorOutput, StateNumbers, report};
 use crate::status::Status;
 use palpate_core::device::{Counts, Kinematics};
 use palpate_core::field::MAX_MODES;
-use palpate_core::servo::{Event, Guard, Input, ResetReason, Servo, ServoState, Surface, Tracked as _};
+use palpate_core::servo::{
+    Event, Guard, Input, Knob, KnobWitness, ResetReason, Servo, ServoState, Surface, Tracked as _,
+};
 use palpate_core::wire::Report;
 
 /// A loop and its state.
@@ -43,6 +46,8 @@ pub trait Running {
     fn state(&self) -> StateNumbers;
     /// `q` of each mode, metres, of a body that has any.
     fn modes(&self) -> Option<[f32; MAX_MODES]>;
+    /// The dial and its state, of a loop that renders one.
+    fn dial(&mut self) -> Option<(&Knob, &mut KnobWitness)>;
     /// The state for the wire.
     fn report(&self, instructions: u32) -> Report;
 }
@@ -51,7 +56,7 @@ impl<K, const JOINTS: usize, G, S> Running for Loop<K, JOINTS, G, S>
 where
     K: Kinematics<JOINTS> + Copy,
     G: Guard<JOINTS> + Copy,
-    S: Surface,
+    S: Dialled,
 {
     fn tick(&mut self, sensed: Sensed<'_>) -> Result<(), Status> {
         let input = match sensed {
@@ -72,7 +77,11 @@ where
             return Err(Status::HomingStarted);
         }
         self.servo = self.servo.with_homing(homing.homing(self.servo.device().encoders)?);
+        let own = self.dial().and_then(|(_, state)| state.own().copied());
         self.state = self.servo.start_after(self.reset);
+        if let (Some(own), Some((knob, state))) = (own, self.dial()) {
+            knob.restore(state, own)?;
+        }
         Ok(())
     }
 
@@ -94,6 +103,10 @@ where
 
     fn modes(&self) -> Option<[f32; MAX_MODES]> {
         self.state.witness().modes()
+    }
+
+    fn dial(&mut self) -> Option<(&Knob, &mut KnobWitness)> {
+        self.servo.surface().0.dial(self.state.witness_mut())
     }
 
     fn report(&self, instructions: u32) -> Report {

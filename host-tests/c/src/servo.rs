@@ -13,7 +13,7 @@ use core::mem::MaybeUninit;
 use core::ptr::{NonNull, addr_of, addr_of_mut};
 use palpate_core::device::{Device, Kinematics};
 use palpate_core::field::MAX_MODES;
-use palpate_core::servo::{Config, Event, Guard, ResetReason, Surface};
+use palpate_core::servo::{Config, Event, Guard, ResetReason};
 
 /// Words of a servo's handle: of 32 bits on a microcontroller, of 64 on most hosts.
 pub const SERVO_WORDS: usize = if size_of::<usize>() == 4 { 500 } else { 260 };
@@ -33,19 +33,20 @@ impl Kind for Started {
     const MARK: usize = 0x5041_4c53;
 }
 
-/// A device, and the loop that refers to it.
+/// A device and a surface, and the loop that refers to them.
 #[repr(C)]
-struct Whole<K: 'static, const JOINTS: usize, G: Guard<JOINTS>, S: Surface + 'static> {
+struct Whole<K: 'static, const JOINTS: usize, G: Guard<JOINTS>, B: Rendered> {
     device: Device<K, JOINTS>,
-    running: Loop<K, JOINTS, G, S>,
+    kept: B::Kept,
+    running: Loop<K, JOINTS, G, B::Surface>,
 }
 
 /// Parts of a loop, apart from its mechanism.
 pub struct Parts<P, B> {
     /// The device's numbers.
     pub device: *const DeviceNumbers,
-    /// The rendered body.
-    pub body: *const Handle<B>,
+    /// The rendered ground.
+    pub ground: B,
     /// The settings.
     pub settings: *const SettingsNumbers,
     /// How it is guarded.
@@ -67,49 +68,37 @@ pub unsafe fn begin<M: MechanismNumbers, const JOINTS: usize, P: Guarding<JOINTS
 where
     M::Mechanism: Kinematics<JOINTS> + Copy + 'static,
 {
-    const { assert!(size_of::<Whole<M::Mechanism, JOINTS, P::Guard, B::Surface>>() <= size_of::<[usize; WORDS]>()) };
-    const { assert!(align_of::<Whole<M::Mechanism, JOINTS, P::Guard, B::Surface>>() <= align_of::<usize>()) };
-    let Parts { device, body, settings, guarding, reset } = parts;
+    const { assert!(size_of::<Whole<M::Mechanism, JOINTS, P::Guard, B>>() <= size_of::<[usize; WORDS]>()) };
+    const { assert!(align_of::<Whole<M::Mechanism, JOINTS, P::Guard, B>>() <= align_of::<usize>()) };
+    let Parts { device, ground, settings, guarding, reset } = parts;
     // SAFETY: the caller's memory for the loop.
     let place = unsafe { Handle::vacate(servo, servo_bytes) }?;
     // SAFETY: the caller's numbers.
     let (mechanism, device, settings) = unsafe { (get(mechanism)?, get(device)?, get(settings)?) };
-    // SAFETY: the caller's body, which stays.
-    let (ground, body) = unsafe { B::stand(body) }?;
+    // It is written part by part, and no handle before all of it is there.
+    // SAFETY: the place that was vacated. No reference to the whole value is made: only to its parts.
+    let value = unsafe { Handle::value(place) };
+    // SAFETY: within the value; by the assertions above it is large enough and aligned.
+    let whole = unsafe { addr_of_mut!((*value).memory) }.cast::<Whole<M::Mechanism, JOINTS, P::Guard, B>>();
+    // SAFETY: the caller's body, which stays; memory of the loop.
+    let (ground, surface) = unsafe { ground.stand(addr_of_mut!((*whole).kept)) }?;
     let device: Device<M::Mechanism, JOINTS> = device.device(mechanism.mechanism()?)?;
     let reset = ResetReason::ALL.into_iter().find(|known| *known as u32 == reset).ok_or(Status::OutOfRange)?;
-    // Made first, so that what lies in the memory is looked at by nobody until all of it is there.
-    let dangling = NonNull::<Loop<M::Mechanism, JOINTS, P::Guard, B::Surface>>::dangling();
-    let started = Started { ground, running: dangling, memory: MaybeUninit::uninit() };
-    // SAFETY: the place that was vacated. No reference to the whole value is made from here on: only to its parts.
-    let value = unsafe {
-        Handle::fill(place, started);
-        Handle::live(place)?.cast_mut()
-    };
-    // SAFETY: within the value; by the assertions above it is large enough and aligned.
-    let whole = unsafe { addr_of_mut!((*value).memory) }.cast::<Whole<M::Mechanism, JOINTS, P::Guard, B::Surface>>();
     // SAFETY: as above; the device is not written again, and stays for as long as the loop.
     let device: &'static Device<M::Mechanism, JOINTS> = unsafe {
         addr_of_mut!((*whole).device).write(device);
         &*addr_of!((*whole).device)
     };
-    let made = settings.rendering().and_then(|rendering| {
-        let (settings, safety) = (settings.settings(), settings.safety());
-        guarding.servo(device, body, Config { settings, rendering, safety, ..Config::DEFAULT })
-    });
-    let servo = match made {
-        Ok(servo) => servo,
-        Err(status) => {
-            // SAFETY: the place that was filled: there is no loop in it after all.
-            unsafe { Handle::vacate(place, servo_bytes) }?;
-            return Err(status);
-        }
-    };
-    // SAFETY: within the value.
+    let (rendering, safety) = (settings.rendering()?, settings.safety());
+    let config = Config { settings: settings.settings(), rendering, safety, ..Config::DEFAULT };
+    let servo = guarding.servo(device, surface, config)?;
+    // SAFETY: within the value, all of which is there then.
     unsafe {
         let running = addr_of_mut!((*whole).running);
         running.write(Loop { state: servo.start_after(reset), servo, reset });
+        addr_of_mut!((*value).ground).write(ground);
         addr_of_mut!((*value).running).write(NonNull::new_unchecked(running));
+        Handle::seal(place);
     }
     Ok(())
 }

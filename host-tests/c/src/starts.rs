@@ -28,7 +28,7 @@ macro_rules! starts {
             settings: *const SettingsNumbers,
             reset: u32,
         ) -> Status {
-            let parts = Parts { device, body, settings, guarding: Unprotected, reset };
+            let parts = Parts { device, ground: body, settings, guarding: Unprotected, reset };
             // SAFETY: the caller's memory, numbers and body.
             code(unsafe { begin::<_, $joints, _, _>(servo, servo_bytes, mechanism, parts) })
         }
@@ -51,7 +51,7 @@ macro_rules! starts {
             let start = || {
                 // SAFETY: the caller's numbers.
                 let guarding = unsafe { get(protection) }?;
-                let parts = Parts { device, body, settings, guarding, reset };
+                let parts = Parts { device, ground: body, settings, guarding, reset };
                 // SAFETY: the caller's memory, numbers and body.
                 unsafe { begin::<_, $joints, _, _>(servo, servo_bytes, mechanism, parts) }
             };

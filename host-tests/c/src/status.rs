@@ -3,7 +3,8 @@
 use core::ffi::{CStr, c_char};
 use palpate_core::body::{FileError, SoftError};
 use palpate_core::device::{DeviceError, HomingError, Refusal};
-use palpate_core::servo::{ConfigError, Fault, ProtectionError, RenderingError, SafetyError, SettingsError};
+use palpate_core::render::FeelError;
+use palpate_core::servo::{ConfigError, Fault, KnobError, ProtectionError, RenderingError, SafetyError, SettingsError};
 
 /// Result of a call. After any value but `Ok` the call had no effect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,6 +64,20 @@ pub enum Status {
     SoftMotion = 82,
     SoftRate = 83,
     SoftNone = 84,
+    KnobNone = 88,
+    KnobDetents = 89,
+    KnobClicks = 90,
+    KnobTexture = 91,
+    KnobSpring = 92,
+    KnobEnds = 93,
+    KnobDamping = 94,
+    KnobFriction = 95,
+    KnobNotch = 96,
+    KnobMaxStiffness = 97,
+    KnobMaxDamping = 98,
+    KnobMaxTorque = 99,
+    KnobReleaseRate = 100,
+    KnobFar = 101,
 }
 
 impl Status {
@@ -90,7 +105,9 @@ impl Status {
             Self::DeviceEncoder => c"an encoder's radians a count must be finite and not zero, its zero finite",
             Self::DeviceMotor => c"a motor's torque must be finite and not zero",
             Self::DeviceFriction => c"dry friction must be finite and not negative",
-            Self::DeviceRange => c"a joint's minimum angle must be below its maximum, and both finite",
+            Self::DeviceRange => {
+                c"a joint's minimum angle must be below its maximum, both finite; or both infinite of an only joint, with 4 to 16777216 counts a turn"
+            }
             Self::DeviceLimit => c"a device's margin, rate, force, stiffness and damping must be positive and finite",
             Self::SettingsRate => c"the servo rate must be between 1 Hz and 100 kHz",
             Self::SettingsStiffness => c"the stiffness must be between 0 and the device's maximum",
@@ -126,10 +143,24 @@ impl Status {
             }
             Self::SoftRate => c"the rate of the modes must be a positive number of Hz",
             Self::SoftNone => c"the loop's body has no modes",
+            Self::KnobNone => c"the loop renders no dial: start it with palpate_servo_start_dial",
+            Self::KnobDetents => c"detents need a pitch from 1e-4 rad to half a turn, a centre within a turn, and no negative torque",
+            Self::KnobClicks => c"clicks need a pitch from 1e-4 rad to half a turn, a snap from 0.5 to 1, no negative force, first <= last",
+            Self::KnobTexture => c"a texture needs a pitch from 1e-4 rad to half a turn, a centre within a turn, and no negative torque",
+            Self::KnobSpring => c"a spring needs a finite rest, and a stiffness and maximum torque that are finite and not negative",
+            Self::KnobEnds => c"end stops must be in order, with a stiffness and a damping that are finite and not negative",
+            Self::KnobDamping => c"the feel's damping must be finite and not negative",
+            Self::KnobFriction => c"friction needs a torque that is finite and not negative, and a rate that is positive",
+            Self::KnobNotch => c"a notch needs a finite place, a width from 1e-4 rad to half a turn, and no negative torque",
+            Self::KnobMaxStiffness => c"the feel is stiffer than max_stiffness times radius squared: lower a torque or widen a pitch",
+            Self::KnobMaxDamping => c"the feel damps more than max_damping times radius squared: lower damping or friction",
+            Self::KnobMaxTorque => c"the feel's torques add up to more than max_force times radius: lower one",
+            Self::KnobReleaseRate => c"the dial's release rate must be positive and finite",
+            Self::KnobFar => c"the dial is more than an eighth of a turn from there: turn it there first, or give a nearer position",
         }
     }
 
-    const ALL: [Self; 54] = [
+    const ALL: [Self; 68] = [
         Self::Ok,
         Self::Null,
         Self::Misaligned,
@@ -184,6 +215,20 @@ impl Status {
         Self::SoftMotion,
         Self::SoftRate,
         Self::SoftNone,
+        Self::KnobNone,
+        Self::KnobDetents,
+        Self::KnobClicks,
+        Self::KnobTexture,
+        Self::KnobSpring,
+        Self::KnobEnds,
+        Self::KnobDamping,
+        Self::KnobFriction,
+        Self::KnobNotch,
+        Self::KnobMaxStiffness,
+        Self::KnobMaxDamping,
+        Self::KnobMaxTorque,
+        Self::KnobReleaseRate,
+        Self::KnobFar,
     ];
 }
 
@@ -317,6 +362,28 @@ impl From<SoftError> for Status {
             SoftError::Motion { .. } => Self::SoftMotion,
             SoftError::Rate => Self::SoftRate,
             // Each mode has its motion.
+            _ => Self::OutOfRange,
+        }
+    }
+}
+
+impl From<KnobError> for Status {
+    fn from(error: KnobError) -> Self {
+        match error {
+            KnobError::Feel(FeelError::Detents) => Self::KnobDetents,
+            KnobError::Feel(FeelError::Clicks) => Self::KnobClicks,
+            KnobError::Feel(FeelError::Texture) => Self::KnobTexture,
+            KnobError::Feel(FeelError::Spring) => Self::KnobSpring,
+            KnobError::Feel(FeelError::Ends) => Self::KnobEnds,
+            KnobError::Feel(FeelError::Damping) => Self::KnobDamping,
+            KnobError::Feel(FeelError::Friction) => Self::KnobFriction,
+            KnobError::Feel(FeelError::Notch) => Self::KnobNotch,
+            KnobError::Stiffness { .. } => Self::KnobMaxStiffness,
+            KnobError::Damping { .. } => Self::KnobMaxDamping,
+            KnobError::Torque { .. } => Self::KnobMaxTorque,
+            KnobError::LetGo => Self::KnobReleaseRate,
+            KnobError::Far { .. } => Self::KnobFar,
+            // The table is this library's.
             _ => Self::OutOfRange,
         }
     }

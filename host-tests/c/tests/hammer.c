@@ -25,7 +25,7 @@ static palpate_soft_body soft;
 static palpate_word room[2 * PALPATE_MODE_WORDS];
 static palpate_tracker tracker;
 static palpate_pair pair;
-static palpate_servo servo, soft_servo;
+static palpate_servo servo, soft_servo, dial_servo;
 static palpate_receiver receiver;
 
 static const palpate_serial_arm arm = {0.08f, 0.205f, 0.245f, {0.22f, 0, 0.08f}, {0.15f, 0.04f}};
@@ -412,6 +412,72 @@ static palpate_status bad_soft(void)
     return status;
 }
 
+static const palpate_dial dial = {0.02f, 1.2f};
+static palpate_device motor;
+static const palpate_feel feel = {
+    {0.25f, 0.01f, 0}, {0.25f, 0.05f, 1e-4f, 0.6f, -3, 3, 0.1f, 0.01f}, {0.05f, 1e-3f, 0}, {0.01f, 0, 0.01f},
+    {{-1, 1}, 0.2f, 1e-4f}, 1e-4f, {1e-3f, 5}, {0.2f, 0.3f, 1e-3f}};
+
+/* A loop of a dial, ticked anywhere. */
+static void turn(void)
+{
+    palpate_output output;
+    palpate_turned turned;
+    good("a dial", palpate_servo_start_dial(&dial_servo, sizeof dial_servo, &dial, &motor, &feel, &settings, 0));
+    for (int32_t i = 0; i < 400; i++) {
+        good("a tick of a dial", palpate_servo_tick(&dial_servo, &i, 1, 1, &output));
+        good("a part of a feel", palpate_servo_set_feel(&dial_servo, any(9), &feel));
+    }
+    good("where it is", palpate_servo_dial(&dial_servo, &turned));
+}
+
+static palpate_status bad_dial(void)
+{
+    /* Each part spoiled, and what of the whole is too much. */
+    static const struct { uint32_t part; size_t at; float number; } bad[] = {
+        {1, offsetof(palpate_feel, detents.pitch), 0}, {1, offsetof(palpate_feel, detents.centre), 7},
+        {2, offsetof(palpate_feel, clicks.snap), 0.4f}, {2, offsetof(palpate_feel, clicks.pitch), 4},
+        {3, offsetof(palpate_feel, texture.pitch), 1e-5f}, {3, offsetof(palpate_feel, texture.torque), -1},
+        {4, offsetof(palpate_feel, spring.stiffness), -1}, {4, offsetof(palpate_feel, spring.rest), NAN},
+        {5, offsetof(palpate_feel, ends.between), 2}, {5, offsetof(palpate_feel, ends.damping), -1},
+        {6, offsetof(palpate_feel, damping), -1}, {6, offsetof(palpate_feel, damping), NAN},
+        {7, offsetof(palpate_feel, friction.whole_at), 0}, {7, offsetof(palpate_feel, friction.torque), INFINITY},
+        {8, offsetof(palpate_feel, notch.width), 4}, {8, offsetof(palpate_feel, notch.at), INFINITY},
+        {4, offsetof(palpate_feel, spring.stiffness), 100}, {6, offsetof(palpate_feel, damping), 1},
+        {4, offsetof(palpate_feel, spring.max_torque), 1}, {4, offsetof(palpate_feel, spring.rest), 9}};
+    palpate_feel none = feel;
+    palpate_dial no_dial = dial;
+    palpate_device no_motor = motor;
+    palpate_turned turned;
+    palpate_servo *one = malloc(sizeof *one);
+    uint32_t which = any(sizeof bad / sizeof bad[0]);
+    memcpy((char *)&none + bad[which].at, &bad[which].number, sizeof(float));
+    palpate_status status;
+    switch (any(10)) {
+    case 0: status = palpate_servo_set_feel(&dial_servo, bad[which].part, &none); break;
+    case 1: status = palpate_servo_set_feel(&dial_servo, 9 + any(1000), &feel); break;
+    case 2: status = palpate_servo_set_feel(any(2) ? NULL : &servo, 0, &feel); break;
+    case 3: status = palpate_servo_set_feel(&dial_servo, 1, any(2) ? NULL : ASKEW(&none)); break;
+    case 4: status = palpate_servo_dial(any(2) ? NULL : &servo, &turned); break;
+    case 5: status = palpate_servo_dial(&dial_servo, any(2) ? NULL : ASKEW(&turned)); break;
+    default:
+        /* A place is not looked at where the dial's is not known. */
+        if (bad[which].number == 9) none.spring.rest = NAN;
+        switch (any(5)) {
+        case 0: none = feel, no_dial.radius = any(2) ? bad_float() : -(float)any(2); break;
+        case 1: none = feel, no_dial.release_rate = any(2) ? bad_float() : -(float)any(2); break;
+        case 2: none = feel, no_motor.joints[0].radians_per_count = 1e-3f; break;
+        default: break;
+        }
+        status = any(2) ? palpate_servo_start_dial(one, sizeof *one, &no_dial, &no_motor, &none, &settings, 0)
+                        : palpate_servo_start_dial_protected(one, any(2) ? sizeof *one : any(99), &no_dial, &no_motor,
+                                                             &none, &settings, &protection, 0);
+        if (palpate_servo_dial(one, &turned) != PALPATE_NOT_READY) stop("a refused dial was taken", status);
+    }
+    free(one);
+    return status;
+}
+
 static palpate_status bad_tick(void)
 {
     const int32_t counts[3] = {0, 0, 0};
@@ -490,19 +556,22 @@ int main(int count, char **arguments)
     good("servo", start_arm(&servo, sizeof servo, &arm, &device, &body, &settings, 0));
     good("soft", palpate_soft_body_load(&soft, sizeof soft, &body, modes, 2, settings.rate, room, sizeof room));
     press();
+    const palpate_joint shaft = {6.2831853f / 4000, 0, 0.06f, 0, -INFINITY, INFINITY, {0, 0, 0, 0, 0, 0}};
+    motor = device, motor.joints[0] = shaft, motor.max_stiffness = 4000, motor.max_joint_rate = 120;
+    turn();
     good("receiver", palpate_receiver_start(&receiver, sizeof receiver));
     use(&body);
 
     palpate_status (*const ways[])(void) = {spoiled_file, bad_load, bad_info, bad_probe, bad_start,
-                                            bad_pair, bad_servo, bad_protection, bad_homing, bad_soft, bad_tick,
-                                            bad_receiver};
-    unsigned long of[96] = {0}, refused = 0;
+                                            bad_pair, bad_servo, bad_protection, bad_homing, bad_soft, bad_dial,
+                                            bad_tick, bad_receiver};
+    unsigned long of[128] = {0}, refused = 0;
     while (refused < calls) {
         uint32_t way = any(sizeof ways / sizeof ways[0]);
         unsigned before = accepted;
         palpate_status status = ways[way]();
         if (accepted != before) continue;
-        if (status <= PALPATE_OK || status >= 96) {
+        if (status <= PALPATE_OK || status >= 128) {
             printf("hammer: way %u was not refused: %d\n", way, (int)status);
             return 1;
         }
@@ -512,7 +581,8 @@ int main(int count, char **arguments)
     /* What is good still is. */
     use(&body);
     press();
-    for (int status = 1; status < 96; status++) {
+    turn();
+    for (int status = 1; status < 128; status++) {
         if (of[status]) printf("  %7lu  %s\n", of[status], palpate_status_text(status));
     }
     printf("hammer: %lu calls with bad arguments, an error code each; %u files that differ were good ones\n", refused,

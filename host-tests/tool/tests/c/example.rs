@@ -23,7 +23,7 @@ fn trace(options: &SceneOptions, scene: &Scene, link: &mut dyn Link) -> Trace {
 }
 
 /// The functions of an image that have a branch to a panic, by the disassembler's word.
-fn panicking(elf: &Path) -> Vec<String> {
+pub fn panicking(elf: &Path) -> Vec<String> {
     let code = run_program(Command::new("arm-none-eabi-objdump").args(["-d", "-C", "--no-show-raw-insn"]).arg(elf));
     let is_panic = |text: &str| ["panicking", "rust_begin_unwind", "_fail"].iter().any(|mark| text.contains(mark));
     let (mut function, mut found) = ("", Vec::new());

@@ -9,6 +9,7 @@ mod everything;
 mod example;
 mod header;
 mod homing;
+mod knob;
 mod rendering;
 mod running;
 mod servo;
