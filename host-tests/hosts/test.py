@@ -1,6 +1,8 @@
-"""Frames of hosts in other languages, against the frames that docs/reference/wire.md and docs/howto/link.md print: C# as
-Unity takes it, compiled by Mono, and the mapping to ROS 2 messages. Neither Unity nor ROS 2 runs here."""
+"""Hosts in other languages. The C++ loop for a PC runs on the C library, against two springs in line. Frames are those
+that docs/reference/wire.md and docs/howto/link.md print: C# as Unity takes it, compiled by Mono, and the mapping to ROS 2
+messages. Neither Unity nor ROS 2 runs here: the object for Unity and the node around the mapping are sketches."""
 
+import os
 import re
 import shutil
 import subprocess
@@ -10,7 +12,8 @@ from pathlib import Path
 from types import SimpleNamespace as Message
 
 HERE = Path(__file__).parent
-DOCS = HERE.parent.parent / "docs"
+ROOT = HERE.parent.parent
+DOCS = ROOT / "docs"
 RECORD = {"tick": 70000, "phase": 3, "fault": 0, "gap": -0.0015, "probe": [0.05, 0.06, 0.0725], "force": [0, 0.25, 0.875]}
 
 
@@ -20,6 +23,28 @@ def set_up():
         return
     subprocess.run(["apt-get", "update", "-qq"], check=True)
     subprocess.run(["apt-get", "install", "-y", "-qq", "--no-install-recommends", "mono-mcs", "mono-runtime"], check=True)
+
+
+def test_cpp():
+    """Position in, force out: the hand's 300 N/m draws the grip 10 mm into the wall's 500 N/m."""
+    library = ROOT / "host-tests/c"
+    target = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
+    cargo = ["cargo", "build", "--quiet", "--locked", "--profile", "abort", "--target-dir", str(target)]
+    subprocess.run(cargo, cwd=library, check=True)
+    file = (ROOT / "boards/bodies/capped_box.palp").read_bytes()
+    with tempfile.TemporaryDirectory() as folder:
+        # As `palpate c-library` writes it: a box has 6 faces and 12 edges.
+        numbers = ", ".join(map(str, file))
+        Path(folder, "part.h").write_text(
+            f"enum {{ PART_FACES = 6, PART_EDGES = 12 }};\nalignas(4) static const uint8_t part_palp[] = {{{numbers}}};\n"
+        )
+        program = f"{folder}/loop"
+        options = ["-std=c++11", "-pedantic", "-Wall", "-Wextra", "-Werror", "-I", f"{library}/include", "-I", folder]
+        sources = [f"{library}/package/examples/host/loop.cpp", f"{target}/abort/libpalpate.a"]
+        subprocess.run(["g++", *options, *sources, "-o", program], check=True)
+        said = subprocess.run([program], capture_output=True, text=True, check=True).stdout
+    depth, force = map(float, re.fullmatch(r"depth (\S+) mm, force (\S+) N\n", said).groups())
+    assert abs(depth - 300 * 10 / (300 + 500)) < 1e-3 and abs(force - 0.5 * depth) < 1e-3, said
 
 
 def record_frame():
@@ -68,6 +93,7 @@ def test_ros2():
 
 if __name__ == "__main__":
     set_up()
+    test_cpp()
     test_c_sharp()
     test_ros2()
-    print("2 passed, 0 failed")
+    print("3 passed, 0 failed")
