@@ -19,9 +19,10 @@ if(NOT TARGET palpate::palpate)
   add_library(palpate::palpate STATIC IMPORTED)
   set_target_properties(palpate::palpate PROPERTIES
     IMPORTED_LOCATION "${_palpate_found}" INTERFACE_INCLUDE_DIRECTORIES "${_palpate}/src")
-  # Code of palpate needs no executable stack; its object files do not say so to a bare-metal linker.
+  # Code of palpate needs no executable stack; its object files do not say so to a bare-metal linker. It drops the loops
+  # that are not started only if it is told to.
   if(_palpate_core MATCHES "^cortex-m")
-    set_target_properties(palpate::palpate PROPERTIES INTERFACE_LINK_OPTIONS "-Wl,-z,noexecstack")
+    set_target_properties(palpate::palpate PROPERTIES INTERFACE_LINK_OPTIONS "-Wl,-z,noexecstack;-Wl,--gc-sections")
     if("${CMAKE_C_FLAGS} ${CMAKE_CXX_FLAGS}" MATCHES "-mfloat-abi=soft")
       message(WARNING "palpate's libraries take floats in registers: compile with -mfloat-abi=hard")
     endif()
