@@ -154,12 +154,39 @@ pub extern "C" fn hold_mode(mode: usize, q: f32) {
     }
 }
 
-/// Changes what the loop feels like: 0, or −1 and why not.
+/// Takes a device in the hand: the first `label` bytes of the input are what messages call its file, the rest up to
+/// `length` the file's text; without one it is the mouse's slides. 0, or −1 with a message. The output then describes it,
+/// see [`Stage::describe`], and the text is its name.
 #[unsafe(no_mangle)]
-pub extern "C" fn choose(rate: f32, stiffness: f32, damping: f32, friction: f32, law: u32) -> i32 {
+pub extern "C" fn hold_device(length: usize, label: usize) -> i32 {
+    let mut state = STATE.lock();
+    let words = String::from_utf8_lossy(state.bytes(length)).into_owned();
+    let Exports { stage: Some(stage), output, text, .. } = &mut *state else { return state.say("there is no body") };
+    let held =
+        words.split_at_checked(label).ok_or_else(String::new).and_then(|(label, words)| stage.hold(words, label));
+    match held {
+        Ok(()) => {
+            output.clear();
+            text.clear();
+            text.push_str(stage.describe(output));
+            0
+        }
+        Err(error) => state.say(&error),
+    }
+}
+
+/// The workspace margin of the held device, 0 to 1: 1 well inside, and the force is multiplied by it.
+#[unsafe(no_mangle)]
+pub extern "C" fn workspace_margin() -> f32 {
+    STATE.lock().stage.as_ref().map_or(1.0, Stage::workspace_margin)
+}
+
+/// Changes what the loop feels like, see [`Choices`]: 0, or −1 and why not.
+#[unsafe(no_mangle)]
+pub extern "C" fn choose(rate: f32, stiffness: f32, damping: f32, friction: f32, law: u32, rendering: u32) -> i32 {
     let mut state = STATE.lock();
     let Some(stage) = &mut state.stage else { return state.say("there is no body") };
-    match stage.choose(Choices { rate, stiffness, damping, friction, law }) {
+    match stage.choose(Choices { rate, stiffness, damping, friction, law, rendering }) {
         Ok(()) => 0,
         Err(error) => state.say(&error),
     }

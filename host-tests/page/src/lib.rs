@@ -1,5 +1,5 @@
-//! The page's firmware: the same servo loop, compiled for the browser, on a device of three slides that a simulated
-//! hand holds. The exports are plain functions on numbers; longer data lies in memory at an address that a function
+//! The page's firmware: the same servo loop, compiled for the browser, on a device that a simulated hand holds:
+//! three slides, or that of a device file. The exports are plain functions on numbers; longer data lies in memory at an address that a function
 //! returns. Each instance of the module is one device with one body, as a board has one image.
 //!
 //! `unsafe` is only in the names of the exports, which the linker takes as they are.
@@ -12,6 +12,7 @@ extern crate alloc;
 mod basin;
 mod exports;
 mod felt;
+mod held;
 mod knob;
 mod mesh;
 mod page;

@@ -1,18 +1,18 @@
-//! The stage: a body, the loop on three slides, and the hand.
+//! The stage: a body, the loop on the held device, and the hand.
 
 use crate::felt::Loaded;
 use crate::felt::{Felt, FeltWitness, Yielding};
+use crate::held::{Grip, Hand, Held, HeldMechanism};
 use crate::view;
 use crate::view::Sighted as _;
-use alloc::boxed::Box;
 use alloc::string::{String, ToString as _};
 use alloc::vec::Vec;
 use palpate::body::Located;
-use palpate::device::drive::Feed;
-use palpate::device::{Counts, Device, Encoder, Kinematics, Motor, ProbePose};
+use palpate::device::VelocityMethod;
 use palpate::field::Displacement as _;
-use palpate::math::{Vec3, vec3};
+use palpate::math::Vec3;
 use palpate::render::Friction;
+use palpate::servo::recommended::Recommended;
 use palpate::servo::{Config, Event, Guard, Input, Rendering, Servo, ServoState, Settings, Unguarded};
 use palpate::track::{Controller, FirstOrder};
 
@@ -29,11 +29,17 @@ pub struct Choices {
     pub friction: f32,
     /// 0: second order, 1: the paper's law, 2: the projected gradient.
     pub law: u32,
+    /// One of [`RENDERINGS`].
+    pub rendering: u32,
 }
+
+/// The renderings, in the order of their numbers.
+pub const RENDERINGS: [Rendering; 3] = [Rendering::PLAIN, Rendering::EASED, Rendering::SMOOTH];
 
 impl Choices {
     /// 4 kHz and a firm wall.
-    pub const DEFAULT: Self = Self { rate: 4_000.0, stiffness: 1_000.0, damping: 2.0, friction: 0.0, law: 0 };
+    pub const DEFAULT: Self =
+        Self { rate: 4_000.0, stiffness: 1_000.0, damping: 2.0, friction: 0.0, law: 0, rendering: 0 };
 
     /// The controller of the law.
     pub const fn controller(&self) -> Controller {
@@ -45,14 +51,14 @@ impl Choices {
     }
 }
 
-type Loop = Servo<'static, Felt, Slides, 3>;
+type Loop = Servo<'static, Felt, HeldMechanism, 3>;
 type State = ServoState<3, FeltWitness, <Unguarded as Guard<3>>::State>;
 
 /// A body as a surface.
 pub struct Stage {
     /// The surface.
     pub loaded: Loaded,
-    device: &'static Device<Slides, 3>,
+    held: Held,
     choices: Choices,
     servo: Loop,
     state: State,
@@ -68,11 +74,43 @@ impl Stage {
     /// # Errors
     /// The loop's refusal, in a sentence.
     pub fn new(loaded: Loaded, place: Vec3) -> Result<Self, String> {
-        let device: &'static _ = Box::leak(Box::new(slides(loaded.body.size())));
-        let choices = Choices::DEFAULT;
-        let servo = servo(device, loaded.felt, &choices)?;
-        let hand = Hand { position: place, velocity: Vec3::ZERO };
-        Ok(Self { loaded, device, choices, servo, state: servo.start(), hand, target: place, errors: Vec::new() })
+        Self::holding(Held::slides(loaded.body.size()), loaded, Choices::DEFAULT, place)
+    }
+
+    fn holding(mut held: Held, loaded: Loaded, choices: Choices, place: Vec3) -> Result<Self, String> {
+        let servo = servo(&held, loaded.felt, &choices)?;
+        let hand = Hand { position: held.restart(place), velocity: Vec3::ZERO };
+        Ok(Self { loaded, held, choices, servo, state: servo.start(), hand, target: place, errors: Vec::new() })
+    }
+
+    /// Takes the device of a file, whose text and name these are, or the slides without a text; the settings are those
+    /// recommended for it.
+    ///
+    /// # Errors
+    /// The file's first fault, in a sentence; then all stays as it was.
+    pub fn hold(&mut self, text: &str, label: &str) -> Result<(), String> {
+        let held = if text.is_empty() { Held::slides(self.loaded.body.size()) } else { Held::of_file(text, label)? };
+        let mut choices = Choices::DEFAULT;
+        if let Some(Recommended { settings, rendering }) = &held.recommended {
+            (choices.rate, choices.stiffness) = (settings.rate_hz, settings.stiffness_n_per_m);
+            choices.damping = settings.damping_n_s_per_m;
+            choices.rendering = match (rendering.velocity, rendering.ease) {
+                (VelocityMethod::BetweenCounts, _) => 2,
+                (_, Some(_)) => 1,
+                (_, None) => 0,
+            };
+        }
+        *self = Self::holding(held, self.loaded.at_rate(choices.rate)?, choices, self.target)?;
+        Ok(())
+    }
+
+    /// The name of the held device; of its choices stiffness, damping and rendering; and then its own numbers, see
+    /// [`Held::describe`].
+    pub fn describe(&self, out: &mut Vec<f32>) -> &str {
+        let Choices { stiffness, damping, rendering, .. } = self.choices;
+        out.extend([stiffness, damping, rendering as f32]);
+        self.held.describe(out);
+        &self.held.name
     }
 
     /// Goes on with other choices.
@@ -81,7 +119,7 @@ impl Stage {
     /// The setting that is refused; then all stays as it was.
     pub fn choose(&mut self, choices: Choices) -> Result<(), String> {
         let loaded = self.loaded.at_rate(choices.rate)?;
-        self.servo = servo(self.device, loaded.felt, &choices)?;
+        self.servo = servo(&self.held, loaded.felt, &choices)?;
         (self.loaded, self.choices) = (loaded, choices);
         Ok(())
     }
@@ -91,7 +129,8 @@ impl Stage {
     /// # Errors
     /// The error in the modes, in a sentence.
     pub fn soften(&mut self, numbers: &[f32]) -> Result<(), String> {
-        *self = Self::new(self.loaded.softened(numbers, Choices::DEFAULT.rate)?, self.target)?;
+        let loaded = self.loaded.softened(numbers, self.choices.rate)?;
+        *self = Self::holding(self.held.clone(), loaded, self.choices, self.target)?;
         Ok(())
     }
 
@@ -138,7 +177,7 @@ impl Stage {
     /// Restarts with the hand at a place, as after power-on.
     pub fn restart(&mut self, place: Vec3) {
         self.state = self.servo.start();
-        self.hand = Hand { position: place, velocity: Vec3::ZERO };
+        self.hand = Hand { position: self.held.restart(place), velocity: Vec3::ZERO };
         self.target = place;
     }
 
@@ -152,12 +191,12 @@ impl Stage {
             let at = |tick: u32| from + (to - from) * (tick as f32 / ticks as f32);
             let way = [at(tick), at(tick + 1)];
             if yields {
-                let force = force_of(self.device, self.state.duties().map(|duty| duty.fraction()));
-                self.hand.advance(&Grip::LIGHT, way, force, period);
+                self.hand.advance(&Grip::LIGHT, way, self.state.force(), period);
             } else {
                 self.hand = Hand { position: way[1], velocity: Vec3::ZERO };
             }
-            let counts = counts_at(self.device, self.hand.position).map(Counts);
+            self.hand.stop_at(self.held.reach(self.hand.position, self.held.most_in(period)));
+            let counts = self.held.counts();
             self.servo.note(&mut self.state, Event::LinkAlive);
             let _ = self.servo.tick(&mut self.state, Input::Sensors { counts, enable: true });
             let [_, error] =
@@ -169,7 +208,7 @@ impl Stage {
 
     /// Only the ticks, for their time.
     pub fn tick_only(&mut self, ticks: u32) {
-        let counts = counts_at(self.device, self.hand.position).map(Counts);
+        let counts = self.held.counts();
         for _ in 0..ticks {
             let _ = self.servo.tick(&mut self.state, Input::Sensors { counts, enable: true });
         }
@@ -180,19 +219,25 @@ impl Stage {
         view::write(&self.state, self.loaded.felt, &self.choices.controller(), self.target, out);
     }
 
+    /// The workspace margin, 0 to 1.
+    pub fn workspace_margin(&self) -> f32 {
+        self.state.workspace_margin()
+    }
+
     /// A hash of every bit of the loop's state.
     pub fn digest(&self) -> u32 {
         self.state.digest()
     }
 }
 
-fn servo(device: &'static Device<Slides, 3>, felt: &'static Felt, choices: &Choices) -> Result<Loop, String> {
+fn servo(held: &Held, felt: &'static Felt, choices: &Choices) -> Result<Loop, String> {
+    let device = held.device;
     let settings = Settings {
         rate_hz: choices.rate,
         stiffness_n_per_m: choices.stiffness,
         damping_n_s_per_m: choices.damping,
         max_force_n: device.max_force_n,
-        velocity_corner_hz: 150.0,
+        velocity_corner_hz: held.recommended.map_or(150.0, |recommended| recommended.settings.velocity_corner_hz),
         soft_start_s: 0.1,
         body_origin_m: Vec3::ZERO,
     };
@@ -203,106 +248,8 @@ fn servo(device: &'static Device<Slides, 3>, felt: &'static Felt, choices: &Choi
         dynamic_coefficient: 0.75 * choices.friction,
     };
     let friction = (choices.friction > 0.0).then_some(friction);
-    let rendering = Rendering { friction, ..Rendering::PLAIN };
+    let rendering = RENDERINGS.get(choices.rendering as usize).copied().unwrap_or(Rendering::PLAIN);
+    let rendering = Rendering { friction, ..rendering };
     let config = Config { controller: choices.controller(), settings, rendering, ..Config::DEFAULT };
     Servo::try_new(device, felt, config).map_err(|error| error.to_string())
-}
-
-// The device in the page's hand: three slides for the mouse.
-
-/// Three slides at right angles: a joint angle of a radian is a metre.
-#[derive(Clone, Copy, Debug)]
-pub struct Slides;
-
-impl Kinematics<3> for Slides {
-    fn pose(&self, angles: [f32; 3]) -> Option<ProbePose<3>> {
-        Some(ProbePose { position: Vec3::from_array(angles), jacobian: [Vec3::X, Vec3::Y, Vec3::Z] })
-    }
-}
-
-/// Maximum force of the slides' motors, N.
-const GREATEST_FORCE: f32 = 20.0;
-
-/// The slides for a body of this size, metres. An encoder resolves the 2⁻¹⁸th part of the size: a quarter of a
-/// micrometre of 6 cm.
-pub fn slides(size: f32) -> Device<Slides, 3> {
-    let reach = 16.0 * size;
-    Device {
-        kinematics: Slides,
-        // The pose at count zero is exact: there is no line to be in the middle of.
-        encoders: [Encoder { radians_per_count: size / 262_144.0, angle_at_zero_rad: 0.0 }; 3],
-        motors: [Motor { torque_at_full_n_m: GREATEST_FORCE }; 3],
-        feeds: [Feed::Current; 3],
-        dry_friction_n_m: [0.0; 3],
-        // The rim of 0.05 is one of radians: the slides have none.
-        joint_range_rad: [[-reach - 1.0, reach + 1.0]; 3],
-        min_margin_m_per_rad: 0.01,
-        // A mouse jumps.
-        max_joint_rate_rad_per_s: f32::MAX,
-        max_force_n: GREATEST_FORCE,
-        max_stiffness_n_per_m: 10_000.0,
-        max_damping_n_s_per_m: 50.0,
-    }
-}
-
-/// The counts at which the slides are nearest to a place, metres.
-pub fn counts_at(device: &Device<Slides, 3>, place: Vec3) -> [i32; 3] {
-    let place = place.to_array();
-    core::array::from_fn(|joint| {
-        let count = place[joint] / device.encoders[joint].radians_per_count;
-        // The cast truncates.
-        (count + if count < 0.0 { -0.5 } else { 0.5 }) as i32
-    })
-}
-
-/// The force that duties give on the slides, N.
-pub fn force_of(device: &Device<Slides, 3>, duties: [f32; 3]) -> Vec3 {
-    let [x, y, z] = core::array::from_fn(|joint| duties[joint] * device.motors[joint].torque_at_full_n_m);
-    vec3(x, y, z)
-}
-
-// The hand that holds the device: it wants to be where the pointer is, and the device pushes back.
-
-/// How a hand holds a handle.
-#[derive(Clone, Copy, Debug)]
-pub struct Grip {
-    /// Mass of hand and handle, kg.
-    pub mass: f32,
-    /// N/m.
-    pub stiffness: f32,
-    /// N·s/m.
-    pub damping: f32,
-}
-
-impl Grip {
-    /// A light grip: 50 g, pulled to the pointer by 400 N/m and critically damped, `2 √(k m)`.
-    pub const LIGHT: Self = Self { mass: 0.05, stiffness: 400.0, damping: 8.944_272 };
-}
-
-/// Where the handle is, and how fast.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Hand {
-    /// Metres.
-    pub position: Vec3,
-    /// m/s.
-    pub velocity: Vec3,
-}
-
-/// The longest step of the integration, s.
-const STEP: f32 = 1.25e-4;
-
-impl Hand {
-    /// Moves on by a period, s, towards a place that itself moves on to `to`, under the device's force, N, which it
-    /// holds for so long. Semi-implicit Euler.
-    pub fn advance(&mut self, grip: &Grip, [from, to]: [Vec3; 2], force: Vec3, period: f32) {
-        let steps = (period / STEP) as u32 + 1;
-        let step = period / steps as f32;
-        let wanted = (to - from) / period;
-        for index in 0..steps {
-            let place = from + (to - from) * ((index + 1) as f32 / steps as f32);
-            let pull = (place - self.position) * grip.stiffness + (wanted - self.velocity) * grip.damping;
-            self.velocity += (pull + force) * (step / grip.mass);
-            self.position += self.velocity * step;
-        }
-    }
 }

@@ -1,6 +1,7 @@
 //! Replay of a recorded run: passes the counts of each tick through the firmware's code and computes the hash.
 
 use crate::felt::Loaded;
+use crate::page::RENDERINGS;
 use crate::view;
 use crate::view::Sighted;
 use alloc::boxed::Box;
@@ -57,7 +58,7 @@ impl Run {
                 soft_start_s: soft_start,
                 body_origin_m: body_origin,
             },
-            rendering: *[Rendering::PLAIN, Rendering::EASED, Rendering::SMOOTH].get(rendering as usize)?,
+            rendering: *RENDERINGS.get(rendering as usize)?,
             link_timeout,
             scene,
         })

@@ -1,7 +1,7 @@
 // The sliders: what the loop feels like, and how fast time goes.
 
 const by = (id) => document.getElementById(id);
-const SLIDERS = ["stiffness", "friction", "rate", "slow", "law"];
+const SLIDERS = ["stiffness", "friction", "rate", "slow", "law", "rendering"];
 
 /** A number that a slider stands on. */
 export const number = (id) => Number(by(id).value);
@@ -10,13 +10,21 @@ export const number = (id) => Number(by(id).value);
 export const pace = () => 10 ** -number("slow");
 
 /** What is chosen, as the loop takes it. */
-export const choices = () => ({
+export const choices = (damping = 2) => ({
   rate: number("rate"),
   stiffness: number("stiffness"),
-  damping: 2,
+  damping,
   friction: number("friction"),
   law: number("law"),
+  rendering: number("rendering"),
 });
+
+/** Puts the sliders to what a device is recommended with. */
+export function setChoices({ stiffness, rendering }) {
+  Object.assign(by("rate"), { value: 4000 });
+  Object.assign(by("stiffness"), { value: stiffness });
+  Object.assign(by("rendering"), { value: rendering });
+}
 
 /** Says beside each slider what it stands on. */
 export function say() {

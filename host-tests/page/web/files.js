@@ -1,4 +1,4 @@
-// Files that a reader opens or drops: a body, a recording, or a table of places.
+// Files that a reader opens or drops: a body, a device, a recording, or a table of places.
 
 import { read } from "bodies";
 import { open, places } from "recording";
@@ -11,6 +11,7 @@ export async function openFile(page, file) {
     return page.take(bytes.then((bytes) => read(bytes, name.replace(/\.palp$/i, ""))));
   }
   const text = await file.text();
+  if (/\.toml$/i.test(name)) return page.held.open(text, name);
   return /\.csv$/i.test(name) ? openTable(page, text) : openRecording(page, text, name);
 }
 

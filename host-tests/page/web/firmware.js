@@ -75,8 +75,23 @@ export class Device {
     this.exports.hold_mode(mode, q);
   }
 
-  choose({ rate, stiffness, damping, friction, law }) {
-    if (this.exports.choose(rate, stiffness, damping, friction, law) < 0) throw new Error(this.#text());
+  /** Takes the device of a file in the hand, from its text and name, or without a text slides for the mouse; what it is. */
+  hold(text, label) {
+    const [name, file] = [label, text].map((words) => new TextEncoder().encode(words));
+    this.#put(Uint8Array.from([...name, ...file]));
+    if (this.exports.hold_device(name.length + file.length, name.length) < 0) throw new Error(this.#text());
+    const [stiffness, damping, rendering, maxForce, maxStiffness, perCount, ...extents] = this.#numbers();
+    const found = { name: this.#text(), stiffness, damping, rendering, maxForce, maxStiffness, perCount, extents };
+    return file.length ? found : {};
+  }
+
+  /** How far what is held is from the end of its workspace: 1 well inside, 0 there. */
+  workspaceMargin() {
+    return this.exports.workspace_margin();
+  }
+
+  choose({ rate, stiffness, damping, friction, law, rendering }) {
+    if (this.exports.choose(rate, stiffness, damping, friction, law, rendering) < 0) throw new Error(this.#text());
   }
 
   restart(place) {

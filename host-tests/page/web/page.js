@@ -9,6 +9,7 @@ import { Loop } from "loop";
 import { Player } from "player";
 import { Errors, show } from "panel";
 import { Basin } from "basin";
+import { Held } from "held";
 import { Modes } from "modes";
 import { Knob } from "knob";
 import { choices, number, pace, say } from "choices";
@@ -29,6 +30,7 @@ export class Page {
     this.loop = new Loop(this.room, this.pointer);
     this.player = new Player();
     this.modes = new Modes();
+    this.held = new Held(this);
     this.knob = new Knob(this);
     const ways = ([ours, newton]) => this.panel === "basin" && this.marks.ways(ours.places, newton.places);
     this.basin = new Basin({ changed: ways });
@@ -55,6 +57,7 @@ export class Page {
     this.player.close();
     this.room.show(parts ?? [this.body]);
     this.marks.begin();
+    this.held.under(device);
     this.modes.begin(device);
     this.pointer.begin();
     this.choose();
@@ -88,7 +91,7 @@ export class Page {
   choose() {
     say();
     try {
-      this.body.device.choose(choices());
+      this.body.device.choose(choices(this.held.damping));
       this.refuse(null);
     } catch (error) {
       this.refuse(error.message);
@@ -173,6 +176,7 @@ export class Page {
     if (withRegion) marks.region(view.feature, felt.device);
     marks.show(view, withRegion);
     show(view, felt);
+    this.held.show(body.device);
     if (this.panel === "feel") this.errors.draw();
     if (Math.floor(this.last / TOLD_EVERY) === this.told) return;
     this.told = Math.floor(this.last / TOLD_EVERY);

@@ -1,6 +1,7 @@
 // What a script may ask of the page, as `window.palpate`: the tests do, and the curious in the console.
 
 import { given, shipped } from "bodies";
+import { choices } from "choices";
 import { openFile } from "files";
 import { hashOf, secondsOf, verify } from "proof";
 
@@ -33,6 +34,11 @@ export class Script {
   /** A file of a name, its bytes in base64. */
   open(name, base64) {
     return openFile(this.page, new File([Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0))], name));
+  }
+
+  /** A device of the list, by its name. */
+  holdDevice(name) {
+    return this.page.held.choose(name);
   }
 
   panel(name) {
@@ -106,7 +112,8 @@ export class Script {
   }
 
   state() {
-    const { body, basin, player, view, panel, rate, frames, room, marks } = this.page,
+    const { page } = this;
+    const { body, basin, player, view, panel, rate, frames, room, marks } = page,
       recording = player.recording;
     return {
       name: body.name,
@@ -114,6 +121,10 @@ export class Script {
       panel,
       replay: recording && { same: recording.same, hash: recording.hash },
       arrived: basin.arrived,
+      held: { ...page.held.numbers, about: by("device-about").textContent },
+      choices: choices(page.held.damping),
+      margin: body.device.workspaceMargin(),
+      force: view?.force,
       refusal: by("refusal").hidden ? null : by("refusal").textContent,
       contact: view?.contact,
       gap: view?.gap,

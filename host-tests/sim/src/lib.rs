@@ -4,7 +4,7 @@
 //! - [`motion`]: the loop on a device that moves, with a failure planted, on any plant;
 //! - [`devices`]: device files, as the library's constant and as a plant;
 //! - [`scene`]: scene files;
-//! - [`recorded`]: devices and scenes as plain numbers, also without a standard library;
+//! - [`recorded`]: devices and scenes as plain numbers, also without a standard library, as [`devices`] reads its files;
 //! - [`feel`]: scripted hands, and the force that they get as figures;
 //! - [`zwidth`]: the maximum stiffness of a wall on a device;
 //! - [`magnetic`]: magnetic angle sensors at a board's bus (feature `boards`);
@@ -15,7 +15,7 @@
 
 extern crate alloc;
 
-#[cfg(feature = "std")]
+#[cfg(feature = "device-files")]
 pub mod devices;
 #[cfg(feature = "feel")]
 pub mod feel;

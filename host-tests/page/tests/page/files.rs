@@ -59,7 +59,7 @@ fn the_frames_of_a_device_are_read_as_the_wire_has_them() -> anyhow::Result<()> 
     Ok(())
 }
 
-fn dropped(page: &Page, name: &str, bytes: &[u8]) -> anyhow::Result<serde_json::Value> {
+pub fn dropped(page: &Page, name: &str, bytes: &[u8]) -> anyhow::Result<serde_json::Value> {
     page.ask(&format!("palpate.open({name:?}, {:?})", STANDARD.encode(bytes)))?;
     page.ask("palpate.state()")
 }

@@ -8,6 +8,7 @@ mod closest;
 mod files;
 mod hands;
 mod hash;
+mod held;
 mod knob;
 mod live;
 mod looks;

@@ -1,9 +1,17 @@
 //! From the text of a device file to a device that has been checked, entry by entry.
 
+#[cfg(feature = "std")]
 use super::plant;
 use super::schema::{DeviceFile, JointEntry, LinkageEntry, MechanismEntry};
 use crate::devices::preset::Preset;
+#[cfg(feature = "std")]
 use crate::plant::PlantSettings;
+use alloc::borrow::ToOwned as _;
+use alloc::boxed::Box;
+use alloc::format;
+use alloc::string::{String, ToString as _};
+use alloc::vec;
+use alloc::vec::Vec;
 use palpate::commission::Wiring;
 use palpate::device::drive::{Feed, VoltageFeed};
 use palpate::device::{
@@ -11,14 +19,15 @@ use palpate::device::{
     SerialArm,
 };
 use palpate::math::{Vec2, vec3};
-use std::fs;
-use std::path::Path;
+#[cfg(feature = "std")]
+use std::{fs, path::Path};
 use thiserror::Error;
 
 /// Why a device file is refused.
 #[derive(Debug, Error)]
 pub enum DeviceFileError {
     /// It cannot be read.
+    #[cfg(feature = "std")]
     #[error(
         "{file}: cannot be read: {cause}; `palpate device woodenhaptics-2016 --out my.toml` writes one to start from"
     )]
@@ -58,6 +67,7 @@ pub struct OwnDevice {
     /// Its protection.
     pub protection: Protection<3>,
     /// Its simulated plant.
+    #[cfg(feature = "std")]
     pub plant: PlantSettings,
 }
 
@@ -66,6 +76,7 @@ impl OwnDevice {
     ///
     /// # Errors
     /// The first thing wrong with it.
+    #[cfg(feature = "std")]
     pub fn read(path: &Path) -> Result<Self, DeviceFileError> {
         let file = path.display().to_string();
         let text = fs::read_to_string(path).map_err(|cause| DeviceFileError::Read { file: file.clone(), cause })?;
@@ -125,15 +136,22 @@ impl OwnDevice {
             return Err(refuse(&entry, &error.to_string()));
         }
         let protection = protection(&file);
+        #[cfg(feature = "std")]
         let plant = plant::settings(&file).map_err(|(entry, reason)| refuse(entry, reason))?;
-        Ok(Self { preset, protection, plant, file })
+        Ok(Self {
+            preset,
+            protection,
+            #[cfg(feature = "std")]
+            plant,
+            file,
+        })
     }
 
     /// The channels of the joints' encoders and of their motors.
     pub(crate) fn channels(&self) -> [[u8; 3]; 2] {
         // Three joints and channels below three, as the file was checked.
         let of = |channel: fn(&JointEntry) -> usize| {
-            std::array::from_fn(|joint| self.file.joint.get(joint).map_or(0, |joint| channel(joint) as u8))
+            core::array::from_fn(|joint| self.file.joint.get(joint).map_or(0, |joint| channel(joint) as u8))
         };
         [of(|joint| joint.encoder.channel), of(|joint| joint.motor.channel)]
     }
@@ -281,7 +299,7 @@ fn preset(file: &DeviceFile) -> (Preset, Result<(), DeviceError>) {
                     stub_m: *stub as f32,
                     reach_m: *reach as f32,
                     side_m: *side as f32,
-                    directions: legs.map(|leg| [leg.cos() as f32, leg.sin() as f32]),
+                    directions: legs.map(|leg| [libm::cos(leg) as f32, libm::sin(leg) as f32]),
                     workspace_centre_m: vec3(0.0, 0.0, *workspace_depth as f32),
                     up: vec3(0.0, 1.0, 0.0),
                     carried_mass_kg: *carried_mass as f32,

@@ -1,5 +1,7 @@
 //! The schema of a `device.toml`: see `docs/reference/device-format.md`. SI units throughout.
 
+use alloc::string::String;
+use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 
 /// A device file.

@@ -15,40 +15,27 @@ pub struct Recorded {
     pub protection: Option<Protection<3>>,
 }
 
+/// A device with its mechanism as another type.
+pub const fn with_mechanism<K: Copy, L: Copy>(of: &Device<K, 3>, kinematics: L) -> Device<L, 3> {
+    Device {
+        kinematics,
+        encoders: of.encoders,
+        motors: of.motors,
+        feeds: of.feeds,
+        dry_friction_n_m: of.dry_friction_n_m,
+        joint_range_rad: of.joint_range_rad,
+        min_margin_m_per_rad: of.min_margin_m_per_rad,
+        max_joint_rate_rad_per_s: of.max_joint_rate_rad_per_s,
+        max_force_n: of.max_force_n,
+        max_stiffness_n_per_m: of.max_stiffness_n_per_m,
+        max_damping_n_s_per_m: of.max_damping_n_s_per_m,
+    }
+}
+
 impl Recorded {
     /// A device, whichever its mechanism.
     pub fn new<K: Copy + Into<Mechanism>>(of: &Device<K, 3>, protection: Option<Protection<3>>) -> Self {
-        let Device {
-            kinematics,
-            encoders,
-            motors,
-            feeds,
-            dry_friction_n_m: dry_friction,
-            joint_range_rad: joint_range,
-            ..
-        } = *of;
-        let Device {
-            min_margin_m_per_rad: min_margin,
-            max_joint_rate_rad_per_s: max_joint_rate,
-            max_force_n: max_force,
-            max_stiffness_n_per_m: max_stiffness,
-            max_damping_n_s_per_m: max_damping,
-            ..
-        } = *of;
-        let device = Device {
-            kinematics: kinematics.into(),
-            encoders,
-            motors,
-            feeds,
-            dry_friction_n_m: dry_friction,
-            joint_range_rad: joint_range,
-            min_margin_m_per_rad: min_margin,
-            max_joint_rate_rad_per_s: max_joint_rate,
-            max_force_n: max_force,
-            max_stiffness_n_per_m: max_stiffness,
-            max_damping_n_s_per_m: max_damping,
-        };
-        Self { device, protection }
+        Self { device: with_mechanism(of, of.kinematics.into()), protection }
     }
 
     /// Its numbers.

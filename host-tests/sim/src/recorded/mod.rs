@@ -9,6 +9,6 @@ mod mechanism;
 mod scene;
 mod walk;
 
-pub use device::Recorded;
+pub use device::{Recorded, with_mechanism};
 pub use mechanism::Mechanism;
 pub use scene::{Entry, Movement, SceneNumbers, Turn};

@@ -1,15 +1,18 @@
 //! `palpate page` and `palpate view`: the page for the browser, as a file and on the loopback.
 
 use super::bake;
+use super::device::toml_of;
 use super::felt::SoftModes;
 use super::output::{print, write_whole};
+use crate::devices::{self, DEVICES};
 use crate::firmware::Progress;
 use crate::models::{self, SHIPPED};
-use crate::page::{self, Given, Recording, Shown};
+use crate::page::{self, Given, Holdable, Recording, Shown};
 use crate::repository;
 use anyhow::{Context as _, ensure};
 use clap::Args;
 use palpate::body::FileHead;
+use palpate_sim::devices::OwnDevice;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -47,6 +50,9 @@ pub struct ViewArguments {
     /// Recorded run of `demo` or `sim`, shown with its body
     #[arg(long, value_name = "FILE.json", conflicts_with = "model")]
     recording: Option<PathBuf>,
+    /// Device in the hand: a name, or your own file (my.toml); default: three slides for the mouse
+    #[arg(long, value_name = "DEVICE", conflicts_with = "recording")]
+    device: Option<PathBuf>,
     /// Port; 0: any free one
     #[arg(long, default_value_t = 0)]
     port: u16,
@@ -58,8 +64,7 @@ pub struct ViewArguments {
 /// The cause, for the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let links = arguments.docs.iter().map(|docs| ("Documentation".to_owned(), docs.clone())).collect();
-    let text =
-        written(Given { first: FIRST.to_owned(), bodies: shipped()?, script: script(), links, recording: None })?;
+    let text = written(Given { first: FIRST.to_owned(), bodies: shipped()?, links, ..given()? })?;
     let out = &arguments.out;
     fs::create_dir_all(out).with_context(|| format!("{}: the folder cannot be made", out.display()))?;
     let path = out.join("index.html");
@@ -84,7 +89,17 @@ pub fn view(arguments: &ViewArguments) -> anyhow::Result<ExitCode> {
     }
     let recording = arguments.recording.as_deref().map(read).transpose()?;
     bodies.extend(shipped()?.into_iter().filter(|body| body.name != first));
-    let text = written(Given { first, bodies, script: script(), links: Vec::new(), recording })?;
+    let mut given = Given { first, bodies, recording, ..given()? };
+    if let Some(device) = &arguments.device {
+        let own = devices::own(device)?;
+        let name = &own.file.name;
+        if devices::named(&device.to_string_lossy()).is_none() {
+            given.devices.retain(|shipped| shipped.name != *name);
+            given.devices.push(holdable("yours", own.preset.recommended().settings.stiffness_n_per_m, &own)?);
+        }
+        given.held = Some(own.file.name);
+    }
+    let text = written(given)?;
     page::serve(&text, arguments.port, |address| {
         // Whoever reads it may have gone.
         let _ = print(format!("{address}\n").as_bytes());
@@ -108,9 +123,25 @@ pub(super) fn write_replay(recording: &Recording, path: &Path) -> anyhow::Result
     let bodies: Vec<Shown> =
         recording.bodies.iter().map(|body| Shown::encoded(&body.name, body.file.clone())).collect();
     let first = bodies.first().map(|body| body.name.clone()).unwrap_or_default();
-    let given = Given { first, bodies, script: script(), links: Vec::new(), recording: Some(recording.clone()) };
+    let given = Given { first, bodies, recording: Some(recording.clone()), ..given()? };
     write_whole(path, page::bundle(&given, &firmware)?.as_bytes())?;
     Ok(true)
+}
+
+/// The parts of every page.
+fn given() -> anyhow::Result<Given> {
+    let mut all = Vec::new();
+    for device in DEVICES.iter().filter(|device| device.source.is_some()) {
+        let stiffness = device.recommended().settings.stiffness_n_per_m;
+        all.push(holdable(device.about, stiffness, &devices::own(Path::new(device.name))?)?);
+    }
+    let (first, bodies, links) = (String::new(), Vec::new(), Vec::new());
+    Ok(Given { first, bodies, devices: all, held: None, script: script(), links, recording: None })
+}
+
+fn holdable(about: &str, stiffness: f32, own: &OwnDevice) -> anyhow::Result<Holdable> {
+    let file = toml_of(own, "A device of palpate.")?;
+    Ok(Holdable { name: own.file.name.clone(), about: about.to_owned(), file, stiffness })
 }
 
 fn written(given: Given) -> anyhow::Result<String> {

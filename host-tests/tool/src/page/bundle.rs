@@ -20,6 +20,10 @@ pub struct Given {
     pub first: String,
     /// The bodies to choose from.
     pub bodies: Vec<Shown>,
+    /// The devices to choose from, beside the mouse.
+    pub devices: Vec<Holdable>,
+    /// The name of the one that is held first; `None` for the mouse.
+    pub held: Option<String>,
     /// State hash after the million ticks of `palpate_bench::exercise` on the host; every tested board must reach the
     /// same.
     pub script: String,
@@ -41,6 +45,19 @@ pub struct Shown {
     /// The numbers of its modes, in base64; `None` of a rigid body.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub modes: Option<String>,
+}
+
+/// A device to choose.
+#[derive(Debug, Serialize)]
+pub struct Holdable {
+    /// Its name.
+    pub name: String,
+    /// Its full name and its kind of mechanism.
+    pub about: String,
+    /// The text of its file.
+    pub file: String,
+    /// Recommended stiffness, N/m.
+    pub stiffness: f32,
 }
 
 impl Shown {

@@ -6,7 +6,7 @@ mod recording;
 use crate::firmware::{Progress, SetUpError, Toolchain, apt_install, on_path, output};
 use crate::repository;
 use anyhow::Context as _;
-pub use bundle::{Given, Shown, bundle};
+pub use bundle::{Given, Holdable, Shown, bundle};
 pub use recording::{Cut, Loop, RecordedBody, RecordedScene, Recording};
 use std::fs;
 use std::io::{BufRead as _, BufReader, Write as _};
