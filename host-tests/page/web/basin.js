@@ -1,5 +1,7 @@
 // The paper's controller beside Newton's method: the same starts, the same probe, the same tables.
 
+import { colour, withColours } from "scheme";
+
 const CELLS = 48;
 /** Milliseconds of a frame for starts: the picture fills while the page stays alive. */
 const BUDGET = 9;
@@ -21,6 +23,7 @@ export class Basin {
       choice.addEventListener("change", () => this.begin(this.device, this.probe, this.start));
     }
     this.changed = changed;
+    withColours(() => this.ways && this.plot());
     for (const map of this.maps) {
       map.addEventListener("pointermove", (event) => this.pick(map, event));
       map.addEventListener("pointerdown", (event) => this.pick(map, event));
@@ -126,26 +129,27 @@ export class Basin {
       { width, height } = context.canvas;
     context.clearRect(0, 0, width, height);
     const longest = Math.max(...falls.map((fall) => Math.min(fall.length, 40)), 8);
-    const high = (value) => 14 + (height - 40) * (1 - (value - least) / Math.max(most - least, 1e-9));
+    // The numbers stand beside the curves and below them.
+    const [left, right, top, bottom] = [16, width - 150, 20, height - 56];
+    const across = (step) => left + ((right - left) * step) / (longest - 1),
+      high = (value) => top + (bottom - top) * (1 - (value - least) / Math.max(most - least, 1e-9));
     falls.forEach((fall, index) => {
-      context.strokeStyle = context.fillStyle = ["#3fe0d0", "#ff5d6c"][index];
+      const shown = fall.slice(0, longest);
+      context.strokeStyle = context.fillStyle = colour(["witness", "lost"][index]);
       context.lineWidth = 4 - index;
       context.beginPath();
-      fall
-        .slice(0, longest)
-        .forEach((value, step) => context.lineTo(34 + ((width - 50) * step) / (longest - 1), high(value)));
+      shown.forEach((value, step) => context.lineTo(across(step), high(value)));
       context.stroke();
-      fall.slice(0, longest).forEach((value, step) => {
-        context.beginPath();
-        context.arc(34 + ((width - 50) * step) / (longest - 1), high(value), 5, 0, 7);
-        context.fill();
-      });
+      shown.forEach((value, step) => dot(context, [across(step), high(value)], 5, context.fillStyle));
     });
-    context.fillStyle = "#93a0b8";
-    context.font = "20px system-ui, sans-serif";
-    context.fillText(`${most.toFixed(1)} mm`, width - 110, 26);
-    context.fillText(`${least.toFixed(1)} mm`, width - 110, height - 34);
-    context.fillText(`${longest - 1} steps`, width - 110, height - 6);
+    context.fillStyle = colour("quiet");
+    context.font = "26px system-ui, sans-serif";
+    context.textBaseline = "middle";
+    for (const [value, text] of [most, least].map((value) => [value, `${value.toFixed(1)} mm`]))
+      context.fillText(text, right + 16, high(value));
+    context.textAlign = "right";
+    context.fillText(`${longest - 1} steps`, right, height - 20);
+    context.textAlign = "left";
   }
 
   paint() {

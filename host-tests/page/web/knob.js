@@ -2,18 +2,21 @@
 
 import { Device } from "firmware";
 import { pace } from "choices";
+import { colour } from "scheme";
+import { IDLE, Presence } from "stroll";
 
 const by = (id) => document.getElementById(id);
 const DEGREE = Math.PI / 180,
   MILLI = 1e-3;
 /** Ticks a second of the knob's loop. */
 const RATE = 4000;
-/** Seconds without a hand after which the dial is turned there and back, and that turn's time and angle. */
-const IDLE = 12,
-  SWING = 14,
+/** Without a hand the dial is turned there and back: that turn's time, s, and angle. */
+const SWING = 14,
   FAR = 70 * DEGREE;
 /** Places at which a turn's torque is drawn. */
 const PLACES = 720;
+/** How far marks and stops stand round the dial, in its radii. */
+const AROUND = 1.25;
 /** The sliders of the panel. */
 const SLIDERS = ["pitch", "strength", "count", "stops", "hardness", "spring", "damping", "rub", "texture", "click", "click-at"];
 
@@ -61,10 +64,11 @@ export class Knob {
   constructor(page) {
     this.page = page;
     this.canvas = by("dial");
-    Object.assign(this, { hand: 0, grip: null, idle: IDLE, clock: 0, owed: 0, view: null, curve: null });
+    Object.assign(this, { hand: 0, grip: null, idle: 0, clock: 0, owed: 0, view: null, curve: null });
     for (const slider of [...SLIDERS, "shape"])
       by(`knob-${slider}`).addEventListener("input", () => this.set(CHANGES[slider]));
     const { canvas } = this;
+    this.presence = new Presence(canvas);
     canvas.addEventListener("pointerdown", (event) => {
       canvas.setPointerCapture(event.pointerId);
       this.grip = this.angleOf(event);
@@ -143,7 +147,7 @@ export class Knob {
   }
 
   holds() {
-    return this.grip !== null || this.idle < 1 || this.idle >= IDLE;
+    return this.grip !== null || this.idle < 1 || this.presence.away >= IDLE;
   }
 
   /** So many seconds of the loop, and the picture. */
@@ -154,7 +158,7 @@ export class Knob {
       this.owed += seconds * pace() * RATE;
       const ticks = Math.floor(this.owed);
       this.owed -= ticks;
-      if (this.idle >= IDLE) {
+      if (this.presence.isLong(seconds)) {
         this.clock += seconds * pace();
         const aim = FAR * Math.sin((2 * Math.PI * this.clock) / SWING);
         this.hand += (aim - this.hand) * (1 - Math.exp(-seconds * 4));
@@ -167,7 +171,7 @@ export class Knob {
   /** Holds the dial's hand at an angle, radians, for so many ticks; what is seen then. */
   hold(angle, ticks) {
     this.hand = angle;
-    this.idle = 0;
+    this.idle = this.presence.away = 0;
     this.view = this.device.turnKnob(ticks, angle, true);
     this.show();
     return this.view;
@@ -185,10 +189,17 @@ export class Knob {
     this.draw(angle, torque, heard ? null : this.hand);
   }
 
-  /** Where the dial is drawn, and how large, in pixels of the canvas. */
+  /** Where the dial is drawn with what stands round it, below the words at the head; in pixels of the canvas. */
   middle() {
-    const { width, height } = this.canvas;
-    return { x: width / 2, y: height * 0.36, radius: Math.min(width * 0.3, height * 0.21) };
+    const { canvas } = this,
+      { width, height } = canvas;
+    const { right, bottom } = document.querySelector("header").getBoundingClientRect();
+    const box = canvas.getBoundingClientRect(),
+      scale = width / Math.max(box.width, 1);
+    const isBelow = (right - box.left) * scale > 0.2 * width;
+    const top = isBelow ? (bottom - box.top + 8) * scale : 0.06 * height,
+      radius = Math.min(width * 0.3, (0.6 * height - top) / (2 * AROUND));
+    return { x: width / 2, y: top + radius * AROUND, radius };
   }
 
   draw(angle, torque, hand) {
@@ -217,18 +228,18 @@ export class Knob {
       count = smooth() ? Math.floor((2 * Math.PI) / pitch) : value("count"),
       first = smooth() ? 0 : -Math.floor((count - 1) / 2);
     for (let detent = first; value("strength") && detent < first + count; detent += 1)
-      line(detent * pitch, 1.08, 1.16, "#93a0b8", 2);
-    if (!isEndless()) for (const side of [-1, 1]) line(side * value("stops") * DEGREE, 1.05, 1.25, "#ff9b42", 4);
-    context.fillStyle = "#26314a";
-    context.strokeStyle = "#4a5a7d";
+      line(detent * pitch, 1.08, 1.16, colour("quiet"), 2);
+    if (!isEndless()) for (const side of [-1, 1]) line(side * value("stops") * DEGREE, 1.05, AROUND, colour("force"), 4);
+    context.fillStyle = colour("control");
+    context.strokeStyle = colour("dots");
     context.lineWidth = 2 * scale;
     context.beginPath();
     context.arc(x, y, radius, 0, 7);
     context.fill();
     context.stroke();
-    line(angle, 0.35, 0.95, "#3fe0d0", 6);
+    line(angle, 0.35, 0.95, colour("witness"), 6);
     if (hand === null || !this.holds()) return;
-    context.fillStyle = "#e8ebf2";
+    context.fillStyle = colour("ink");
     context.beginPath();
     context.arc(...at(hand, 0.82), 7 * scale, 0, 7);
     context.fill();
@@ -242,24 +253,24 @@ export class Knob {
     const most = Math.max(0.01, Math.min(0.056, this.curve.reduce((a, b) => Math.max(a, Math.abs(b)), 0)));
     const across = (turn) => left + (right - left) * (turn / (2 * Math.PI) + 0.5),
       up = (value) => (top + bottom) / 2 - ((bottom - top) / 2) * Math.min(Math.max(value / most, -1), 1);
-    context.strokeStyle = "#2c3750";
+    context.strokeStyle = colour("line");
     context.lineWidth = scale;
     context.strokeRect(left, top, right - left, bottom - top);
     context.beginPath();
     context.moveTo(left, up(0));
     context.lineTo(right, up(0));
     context.stroke();
-    context.strokeStyle = "#ff9b42";
+    context.strokeStyle = colour("force");
     context.lineWidth = 2 * scale;
     context.beginPath();
     this.curve.forEach((value, place) => context.lineTo(across(((place / PLACES) * 2 - 1) * Math.PI), up(value)));
     context.stroke();
     const within = angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
-    context.fillStyle = "#3fe0d0";
+    context.fillStyle = colour("witness");
     context.beginPath();
     context.arc(across(within), up(torque), 6 * scale, 0, 7);
     context.fill();
-    context.fillStyle = "#b9c3d6";
+    context.fillStyle = colour("soft");
     context.font = `${12 * scale}px system-ui, sans-serif`;
     context.fillText(`torque over a turn, ±${(most / MILLI).toFixed(0)} mN·m`, left, top - 6 * scale);
   }

@@ -1,17 +1,16 @@
 // The loop in time: how many ticks a frame owes, and what moves the stylus in them.
 
 import { number, pace } from "choices";
-import { stroll } from "stroll";
+import { Presence, stroll } from "stroll";
 
-/** Seconds without a pointer before the stylus strolls again. */
-const IDLE = 20;
 /** Seconds in which a stroll that begins has gone two thirds of its way from where the stylus was. */
 const EASE = 0.12;
 
 export class Loop {
   constructor(room, pointer) {
     Object.assign(this, { room, pointer });
-    Object.assign(this, { clock: 0, owed: 0, idle: 0, strolls: true, stands: false, nanoseconds: 0 });
+    Object.assign(this, { clock: 0, owed: 0, strolls: true, stands: false, nanoseconds: 0 });
+    this.presence = new Presence(room.canvas);
     /** While it is set, no frame moves anything: only a script does. */
     this.paused = false;
   }
@@ -28,7 +27,6 @@ export class Loop {
 
   /** A reader has taken the stylus. */
   taken() {
-    this.idle = 0;
     this.strolls = this.stands = false;
   }
 
@@ -40,8 +38,7 @@ export class Loop {
   /** So many seconds of a frame; the projection errors of its ticks. */
   advance(seconds) {
     if (this.stands || this.paused) return [];
-    this.idle += seconds;
-    if (this.idle > IDLE && !this.pointer.held) this.strolls = true;
+    if (this.presence.isLong(seconds) && !this.pointer.held) this.strolls = true;
     this.owed += seconds * pace() * number("rate");
     const ticks = Math.floor(this.owed);
     this.owed -= ticks;

@@ -19,11 +19,14 @@ import {
   Vector3,
 } from "three";
 import { TOUCHING } from "firmware";
+import { colour, withColours } from "scheme";
 
-const WITNESS = 0x3fe0d0,
-  FORCE = 0xff9b42,
-  STEEL = 0xcdd4df,
-  NEWTON = 0xff5d6c;
+const STEEL = 0xcdd4df;
+/** Names of colours, which the reader's scheme changes. */
+const WITNESS = "witness",
+  FORCE = "force",
+  NEWTON = "lost",
+  NORMAL = "ink";
 const UP = new Vector3(0, 1, 0);
 /** How far the region's sheets reach, and how long an arrow of a newton is, in sizes of the body. */
 const REACH = 0.42,
@@ -40,21 +43,24 @@ export class Marks {
       0.016,
       new MeshBasicMaterial({ color: STEEL, transparent: true, opacity: 0.4, depthTest: false }),
     );
-    this.witness = ball(0.0135, new MeshBasicMaterial({ color: WITNESS }));
-    this.ring = new Mesh(new TorusGeometry(0.034, 0.0022, 10, 48), new MeshBasicMaterial({ color: WITNESS }));
+    this.witness = ball(0.0135, inked(WITNESS, new MeshBasicMaterial()));
+    this.ring = new Mesh(new TorusGeometry(0.034, 0.0022, 10, 48), inked(WITNESS, new MeshBasicMaterial()));
     // The god-object: where the stylus would be if the wall did not give.
     this.god = ball(
       0.022,
-      new MeshStandardMaterial({ color: FORCE, transparent: true, opacity: 0.45, roughness: 0.3 }),
+      inked(FORCE, new MeshStandardMaterial({ transparent: true, opacity: 0.45, roughness: 0.3 })),
     );
     this.gap = this.line(WITNESS, 2.2, true);
     this.anchor = this.line(FORCE, 3);
     this.rim = this.line(WITNESS, 4.5);
-    this.normal = arrow(0xffffff, 0.0028);
+    this.normal = arrow(NORMAL, 0.0028);
     this.force = arrow(FORCE, 0.0075);
     this.sheet = new Mesh(
       new BufferGeometry(),
-      new MeshBasicMaterial({ vertexColors: true, transparent: true, side: DoubleSide, depthWrite: false }),
+      inked(
+        WITNESS,
+        new MeshBasicMaterial({ vertexColors: true, transparent: true, side: DoubleSide, depthWrite: false }),
+      ),
     );
     // Chords of a way cut through the surface: they are seen all the same.
     this.ours = this.line(WITNESS, 3.5);
@@ -82,7 +88,8 @@ export class Marks {
   }
 
   line(color, linewidth, dashed = false) {
-    const material = new LineMaterial({ color, linewidth, dashed, dashSize: 0.02, gapSize: 0.014, transparent: true });
+    const style = { linewidth, dashed, dashSize: 0.02, gapSize: 0.014, transparent: true };
+    const material = inked(color, new LineMaterial(style));
     material.resolution.copy(this.room.resolution);
     const line = new Line2(new LineGeometry(), material);
     line.visible = false;
@@ -150,7 +157,7 @@ export class Marks {
     const rays = device.sheets(code),
       count = rays.length / 6;
     const position = new Float32Array(6 * count),
-      colour = new Float32Array(8 * count),
+      shade = new Float32Array(8 * count),
       index = [];
     const base = new Vector3(),
       out = new Vector3();
@@ -161,13 +168,13 @@ export class Marks {
         .multiplyScalar(REACH)
         .add(base)
         .toArray(position, 6 * ray + 3);
-      colour.set([0.25, 0.88, 0.82, 0.34, 0.25, 0.88, 0.82, 0], 8 * ray);
+      shade.set([1, 1, 1, 0.34, 1, 1, 1, 0], 8 * ray);
       if (ray % RAYS !== RAYS - 1) index.push(2 * ray, 2 * ray + 1, 2 * ray + 2, 2 * ray + 2, 2 * ray + 1, 2 * ray + 3);
     }
     this.sheet.geometry.dispose();
     this.sheet.geometry = new BufferGeometry();
     this.sheet.geometry.setAttribute("position", new BufferAttribute(position, 3));
-    this.sheet.geometry.setAttribute("color", new BufferAttribute(colour, 4));
+    this.sheet.geometry.setAttribute("color", new BufferAttribute(shade, 4));
     this.sheet.geometry.setIndex(index);
   }
 
@@ -193,6 +200,12 @@ export class Marks {
   }
 }
 
+/** A material of a colour by its name, now and whenever the scheme changes. */
+function inked(name, material) {
+  withColours(() => material.color.set(colour(name)));
+  return material;
+}
+
 function ball(radius, material) {
   return new Mesh(new SphereGeometry(radius, 32, 20), material);
 }
@@ -214,7 +227,7 @@ function stylus() {
 }
 
 function arrow(color, radius) {
-  const material = new MeshBasicMaterial({ color });
+  const material = inked(color, new MeshBasicMaterial());
   const group = new Group();
   group.shaft = new Mesh(new CylinderGeometry(radius, radius, 1, 16), material);
   group.head = new Mesh(new ConeGeometry(3 * radius, 8 * radius, 20), material);

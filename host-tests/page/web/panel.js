@@ -1,5 +1,6 @@
 // The numbers beside the picture, and the sentence below it.
 
+import { colour } from "scheme";
 import { EDGE, FACE, featureOf, TOUCHING } from "firmware";
 
 const MODES = ["", "held at u = 0", "held at u = 1", "held at v = 0", "held at v = 1", "interior", "corner"];
@@ -75,38 +76,43 @@ export class Errors {
     const { context, values } = this;
     const { width, height } = context.canvas;
     grid(context, DECADES);
-    context.strokeStyle = "#3fe0d0";
+    context.strokeStyle = colour("witness");
     context.lineWidth = 3;
     context.lineJoin = "round";
     context.beginPath();
     values.forEach((value, index) => {
-      context.lineTo((width * (index + 320 - values.length)) / 319, level(value, DECADES, height));
+      context.lineTo(GUTTER + ((width - GUTTER) * (index + 320 - values.length)) / 319, level(value, DECADES, height));
     });
     context.stroke();
   }
 }
 
+/** Left of the curve, for the numbers; above and below it, px. */
+const GUTTER = 76,
+  MARGIN = 18;
+
 /** How high a value stands. */
 export function level(value, [low, high], height) {
   const decade = Math.log10(Math.max(value, 1e-30));
-  return 8 + (height - 16) * (1 - Math.min(Math.max((decade - low) / (high - low), 0), 1));
+  return MARGIN + (height - 2 * MARGIN) * (1 - Math.min(Math.max((decade - low) / (high - low), 0), 1));
 }
 
 /** Clears a canvas and draws a line a decade. */
-export function grid(context, [low, high], unit = "") {
+export function grid(context, [low, high]) {
   const { width, height } = context.canvas;
   context.clearRect(0, 0, width, height);
-  context.fillStyle = "#93a0b8";
-  context.strokeStyle = "#1f2a40";
-  context.lineWidth = 1;
-  context.font = "20px system-ui, sans-serif";
+  context.fillStyle = colour("quiet");
+  context.strokeStyle = colour("grid");
+  context.lineWidth = 2;
+  context.font = "26px system-ui, sans-serif";
+  context.textBaseline = "middle";
   for (let decade = low; decade <= high; decade += 2) {
     const y = level(10 ** decade, [low, high], height);
     context.beginPath();
-    context.moveTo(0, y);
+    context.moveTo(GUTTER, y);
     context.lineTo(width, y);
     context.stroke();
-    context.fillText(`10${superscript(decade)}${unit}`, 6, y - 5 < 16 ? y + 22 : y - 5);
+    context.fillText(`10${superscript(decade)}`, 8, y);
   }
 }
 

@@ -202,7 +202,7 @@ export class Room {
     if (this.front.z < -0.2) from.z *= -1;
     // As near as the whole of it and the stylus fit, by the sphere around it.
     const radius = Math.hypot(...low.map((least, axis) => high[axis] - least)) / 2 / size;
-    this.camera.position.copy(from.multiplyScalar(1.25 + 2.15 * radius));
+    this.camera.position.copy(from.multiplyScalar(1.3 + 2.25 * radius));
     this.orbit.target.set(0, 0, -0.02);
     this.orbit.update();
   }
@@ -262,7 +262,8 @@ export class Room {
     this.camera.aspect = width / Math.max(height, 1);
     // Narrow screens look from farther away.
     this.camera.fov = this.camera.aspect < 1 ? 46 : 32;
-    this.camera.updateProjectionMatrix();
+    // Above the words at the foot.
+    this.camera.setViewOffset(width, height, 0, 0.03 * height, width, height);
     this.resolution = { x: width, y: height, isVector2: true };
     this.lines?.forEach((material) => material.resolution.set(width, height));
   }

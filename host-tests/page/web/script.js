@@ -124,6 +124,8 @@ export class Script {
       held: { ...page.held.numbers, about: by("device-about").textContent },
       choices: choices(page.held.damping),
       margin: body.device.workspaceMargin(),
+      strolls: page.loop.strolls,
+      away: page.loop.presence.away,
       force: view?.force,
       refusal: by("refusal").hidden ? null : by("refusal").textContent,
       contact: view?.contact,

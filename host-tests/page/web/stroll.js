@@ -2,6 +2,30 @@
 
 import { Vector3 } from "three";
 
+/** Seconds after a pointer, finger or key has left before what is shown moves by itself again. */
+export const IDLE = 5;
+
+/** Whether a reader is at a picture, and for how long nobody has been. */
+export class Presence {
+  constructor(canvas) {
+    Object.assign(this, { here: false, away: IDLE });
+    for (const name of ["pointerenter", "pointermove", "pointerdown"]) canvas.addEventListener(name, () => this.come(true));
+    // A finger that is lifted leaves, too.
+    for (const name of ["pointerleave", "pointercancel"]) canvas.addEventListener(name, () => this.come(false));
+    for (const name of ["keydown", "wheel"]) canvas.addEventListener(name, () => this.come(this.here));
+  }
+
+  come(here) {
+    Object.assign(this, { here, away: 0 });
+  }
+
+  /** Some seconds later: whether nobody has been here for long enough. */
+  isLong(seconds) {
+    if (!this.here) this.away += seconds;
+    return !this.here && this.away >= IDLE;
+  }
+}
+
 const HIGH = 0.13,
   DEEP = -0.115;
 

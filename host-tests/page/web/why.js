@@ -23,6 +23,8 @@ export function explain() {
     // A finger that has tapped is gone at once; the word keeps the focus until the next tap.
     word.addEventListener("pointerleave", ({ pointerType }) => pointerType === "mouse" && hide());
     word.addEventListener("blur", hide);
+    // The word of a row explains itself; only the rest of the row goes to its slider.
+    word.addEventListener("click", (event) => event.preventDefault());
   }
   addEventListener("keydown", ({ key }) => key === "Escape" && hide());
 }

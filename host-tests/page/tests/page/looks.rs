@@ -74,25 +74,10 @@ fn no_words_are_covered_cut_small_or_pale() -> anyhow::Result<()> {
     for width in WIDTHS.into_iter().chain(NARROW) {
         // Small: a processor draws each frame.
         page.set_size([width, HEIGHT], 0.25)?;
-        for panel in ["feel", "basin", "proof", "knob"] {
-            page.ask(&format!("palpate.panel('{panel}')"))?;
-            page.ask("palpate.drawn(2)")?;
-            all.extend(faults(&page, &format!("page, {panel}, {width} px"))?);
+        for scheme in SCHEMES {
+            page.prefer(scheme)?;
+            all.extend(faults_of_page(&page, &format!("{width} px, {scheme}"))?);
         }
-        // With a refusal, and an explanation.
-        page.ask("palpate.panel('feel')")?;
-        page.ask("palpate.open('no.palp', 'AAAA')")?;
-        all.extend(faults(&page, &format!("page with a refusal, {width} px"))?);
-        for word in ["boundary mode", "gain", "evaluations a tick"] {
-            let why = format!("[...document.querySelectorAll('dt')].find((dt) => dt.textContent === '{word}')");
-            page.ask(&format!("{why}.dispatchEvent(new PointerEvent('pointerenter'))"))?;
-            let bubble = "(({ hidden, textContent }) => !hidden && textContent.length)(document.getElementById('why'))";
-            ensure!(page.number(bubble)? > 40.0, "{word} is not explained");
-            let inside = "(({ left, right, bottom }) => left >= 0 && right <= innerWidth && bottom <= innerHeight)\
-                          (document.getElementById('why').getBoundingClientRect())";
-            ensure!(page.ask(inside)? == true, "the explanation of {word} is cut at {width} px");
-        }
-        page.ask("document.getElementById('why').hidden = true")?;
         page.ask("palpate.take('capped_box')")?;
         photograph_page(&page, width)?;
     }
@@ -100,11 +85,58 @@ fn no_words_are_covered_cut_small_or_pale() -> anyhow::Result<()> {
     Ok(())
 }
 
+/// The same of each panel of the page, of a refusal, of a device and of explanations.
+fn faults_of_page(page: &Page, at: &str) -> anyhow::Result<Vec<String>> {
+    let mut all = Vec::new();
+    for panel in ["feel", "basin", "proof", "knob"] {
+        page.ask(&format!("palpate.panel('{panel}')"))?;
+        page.ask("palpate.drawn(2)")?;
+        all.extend(faults(page, &format!("page, {panel}, {at}"))?);
+        // Each row says what it is.
+        let rows = format!(
+            "[...document.querySelectorAll('section[data-tab={panel}] :is(dt, .sliders label)')].filter((row) => \
+             (row.dataset.why ?? row.querySelector('[data-why]')?.dataset.why ?? '').length < 15 && row.checkVisibility())\
+             .map((row) => row.textContent.trim().slice(0, 20))"
+        );
+        let rows = page.ask(&rows)?;
+        let is_bare = panel != "basin" && rows.as_array().is_none_or(|rows| !rows.is_empty());
+        ensure!(!is_bare, "{panel}: not explained: {rows}");
+    }
+    // The dial is no word, and yet it may not lie over any.
+    let apart = "(() => { const { x, y, radius } = palpate.page.knob.middle(), canvas = document.getElementById('dial'); \
+        const scale = canvas.clientWidth / canvas.width, box = canvas.getBoundingClientRect(); \
+        const at = [box.left + x * scale, box.top + y * scale]; \
+        const { right, bottom } = document.querySelector('header').getBoundingClientRect(); \
+        const away = Math.hypot(Math.max(at[0] - right, 0), Math.max(at[1] - bottom, 0)); \
+        return away - 1.25 * radius * scale; })()";
+    ensure!(page.number(apart)? > 0.0, "the dial lies over the head at {at}");
+    page.ask("palpate.panel('feel')")?;
+    page.ask("palpate.holdDevice('woodenhaptics-2016')")?;
+    all.extend(faults(page, &format!("page with a device, {at}"))?);
+    page.ask("palpate.holdDevice('')")?;
+    page.ask("palpate.open('no.palp', 'AAAA')")?;
+    all.extend(faults(page, &format!("page with a refusal, {at}"))?);
+    for word in ["boundary mode", "gain", "evaluations a tick", "law"] {
+        let why = format!("[...document.querySelectorAll('[data-why]')].find((word) => word.textContent === '{word}')");
+        page.ask(&format!("{why}.scrollIntoView({{ block: 'center' }})"))?;
+        page.ask(&format!("{why}.dispatchEvent(new PointerEvent('pointerenter'))"))?;
+        let bubble = "(({ hidden, textContent }) => !hidden && textContent.length)(document.getElementById('why'))";
+        ensure!(page.number(bubble)? > 40.0, "{word} is not explained");
+        let inside = "(({ left, right, bottom }) => left >= 0 && right <= innerWidth && bottom <= innerHeight)\
+                      (document.getElementById('why').getBoundingClientRect())";
+        ensure!(page.ask(inside)? == true, "the explanation of {word} is cut at {at}");
+    }
+    page.ask("document.getElementById('why').hidden = true")?;
+    page.ask("document.querySelector('aside').scrollTo(0, 0)")?;
+    Ok(all)
+}
+
 /// The page's pictures in the documentation: which panel, how wide.
 fn photograph_page(page: &Page, width: u32) -> anyhow::Result<()> {
     let wanted = [(390, "feel", "page-phone"), (1280, "knob", "page-knob")];
     let wanted = wanted.into_iter().find(|(at, ..)| *at == width);
     if let (Some((_, panel, name)), Some(_)) = (wanted, std::env::var_os("PALPATE_WRITE")) {
+        page.prefer(if panel == "knob" { "light" } else { "dark" })?;
         page.ask(&format!("palpate.panel('{panel}')"))?;
         page.ask(if panel == "knob" { "palpate.turnKnob(0.5, 4000)" } else { "palpate.show(18.4)" })?;
         page.sharpen([width, HEIGHT])?;

@@ -32,6 +32,36 @@ fn the_mouse_moves_the_stylus_and_its_button_presses_it_in() -> anyhow::Result<(
     Ok(())
 }
 
+/// Seconds after the pointer has left until the stylus strolls again.
+const IDLE: f64 = 5.0;
+
+#[test]
+fn the_stylus_strolls_again_five_seconds_after_the_mouse_has_left() -> anyhow::Result<()> {
+    let page = Page::open()?;
+    ensure!(page.ask("palpate.state().strolls")? == true, "nobody is here, and it stands");
+    let over = Point { x: 540.0, y: 380.0 };
+    page.tab.move_mouse_to_point(over)?;
+    comes_to(&page, "!palpate.state().strolls")?;
+    // A mouse that rests is still there: more frames than any browser draws in that time.
+    page.ask("palpate.drawn(60 * 7)")?;
+    ensure!(page.ask("palpate.state().strolls")? == false, "it strolls under a mouse that rests");
+    page.tab.move_mouse_to_point(Point { x: 1_300.0, y: 400.0 })?;
+    let began = Instant::now();
+    loop {
+        let state = page.ask("palpate.state()")?;
+        let (strolls, away) = (state["strolls"] == true, state["away"].as_f64().unwrap_or_default());
+        ensure!(strolls == (away >= IDLE), "{away} s after it has left: strolls {strolls}");
+        if strolls {
+            break;
+        }
+        ensure!(began.elapsed() < Duration::from_secs(120), "{state}");
+        thread::sleep(Duration::from_millis(200));
+    }
+    ensure!(began.elapsed() > Duration::from_secs_f64(0.9 * IDLE), "after {:?}", began.elapsed());
+    ensure!(page.errors().is_empty(), "on the console: {:?}", page.errors());
+    Ok(())
+}
+
 /// Waits until an expression is true: frames are slow where a processor draws them.
 fn comes_to(page: &Page, expression: &str) -> anyhow::Result<()> {
     let began = Instant::now();
