@@ -25,7 +25,7 @@ export async function openRecording(page, text, name) {
 
 function openTable(page, text) {
   try {
-    page.loop.follow(places(text, page.body.device.centre));
+    page.loop.follow(places(text, page.body.device.centre, page.held.numbers.name));
     page.refuse(null);
     return true;
   } catch (error) {

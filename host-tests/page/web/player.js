@@ -20,9 +20,7 @@ export class Player {
     by("play").textContent = "pause";
     by("time").max = recording.views.length - 1;
     by("timeline").hidden = false;
-    by("live").textContent = recording.same
-      ? `state hash ${recording.hash}: ${recording.on}’s, bit for bit`
-      : `state hash ${recording.hash}, recorded was ${recording.recorded}`;
+    by("live").textContent = `made with ${recording.with}; state hash ${recording.hash}: ${recording.on}’s, bit for bit`;
   }
 
   /** Stands at a time, s. */

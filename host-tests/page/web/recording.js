@@ -1,7 +1,8 @@
-// A run that `palpate demo` or `palpate sim` has recorded: the counts of each tick, felt anew by the firmware's code.
+// A run that `palpate demo` or `palpate sim` has recorded: the counts of each tick, rendered again by the firmware's code.
 
 import { decode } from "firmware";
 import { read } from "bodies";
+import { hashOf } from "proof";
 
 /** How many ticks pass between two views that are kept. */
 const STRIDE = 8;
@@ -9,12 +10,17 @@ const STRIDE = 8;
 /** The renderings of the firmware's code, by number. */
 const RENDERINGS = ["plain", "eased", "smooth"];
 
-/** A recording as the tool writes it: its body, the views of its run, and whether the hash is what was recorded. */
+const AGAIN = "record it again with `demo` or `sim --recording`";
+
+/** A recording as the tool writes it: its body and the views of its run, which comes to the hash that was recorded. */
 export async function open(text, name) {
-  const said = JSON.parse(text);
-  if (said.palpate !== "recording") throw new Error(`${name}: not a recording of palpate`);
+  const said = parsed(text);
+  if (said?.palpate !== "recording") throw new Error(`${name}: not a recording of palpate; ${AGAIN}`);
   const rendering = RENDERINGS.indexOf(said.rendering ?? "plain");
-  if (!said.bodies?.length || !said.device_numbers || rendering < 0) throw new Error(`${name}: recorded by another version of palpate`);
+  if (!said.bodies?.length || !said.device_hash || rendering < 0)
+    throw new Error(`${name}: recorded by another version of palpate; ${AGAIN}`);
+  for (const body of said.bodies) checked(name, `the body “${body.name}”`, body.file, body.hash);
+  checked(name, `the device “${said.device}”`, said.device_numbers, said.device_hash);
   const bodies = await Promise.all(said.bodies.map(({ name, file }) => read(decode(file), name)));
   const [body] = bodies;
   for (const { bytes } of bodies.slice(1)) body.device.addToReplay(bytes);
@@ -32,15 +38,28 @@ export async function open(text, name) {
     views.push(body.device.replayView());
   }
   const hash = body.device.replayHash();
+  if (hash !== said.hash)
+    throw new Error(`${name}: comes to the state hash ${hash}, and ${said.hash} was recorded: its counts or settings were changed, or it is of another version of palpate; ${AGAIN}`);
   return {
     body: said.scene ? { ...body, title: said.model, parts: parts(said.scene, bodies, views[0].places) } : body,
     views,
     seconds: STRIDE / said.settings[0],
     hash,
-    recorded: said.hash,
-    same: hash === said.hash,
     on: said.on,
+    with: said.device,
   };
+}
+
+function parsed(text) {
+  try {
+    return JSON.parse(text);
+  } catch {
+    return null;
+  }
+}
+
+function checked(name, what, content, hash) {
+  if (hashOf(content) !== hash) throw new Error(`${name}: ${what} is not that of the run; ${AGAIN}`);
 }
 
 /** What a scene is made of: each part with its body, what it is called, and where it begins. */
@@ -71,14 +90,16 @@ function counts(bytes, ticks, enableAt) {
   return rows;
 }
 
-/** The probe's places of a table that `palpate sim --csv` has written, in the frame of the tables, one a time. */
-export function places(text, centre) {
+/** The probe's places of a table that `palpate sim --csv` has written with a device, in the frame of the tables, one a time. */
+export function places(text, centre, held) {
   const [head, ...lines] = text
     .trim()
     .split(/\r?\n/)
     .map((line) => line.split(","));
   const columns = ["time", "probe_x", "probe_y", "probe_z"].map((name) => head.indexOf(name));
   if (columns.includes(-1)) throw new Error("a table needs the columns time, probe_x, probe_y and probe_z");
+  const made = lines[0]?.[head.indexOf("device")];
+  if (held && made && made !== held) throw new Error(`the table was made with ${made}, and ${held} is held: hold ${made}, or the mouse`);
   return lines.map((line) => {
     const [time, ...place] = columns.map((column) => Number(line[column]));
     return { time, place: place.map((coordinate, axis) => coordinate - centre[axis]) };

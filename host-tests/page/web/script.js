@@ -119,7 +119,7 @@ export class Script {
       name: body.name,
       title: body.title,
       panel,
-      replay: recording && { same: recording.same, hash: recording.hash },
+      replay: recording && { hash: recording.hash, with: recording.with },
       arrived: basin.arrived,
       held: { ...page.held.numbers, about: by("device-about").textContent },
       choices: choices(page.held.damping),

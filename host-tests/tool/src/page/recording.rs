@@ -27,6 +27,8 @@ pub struct Recording {
     pub device: String,
     /// Its numbers, in the format of `palpate_sim::recorded`, in base64, with those of its protection.
     pub device_numbers: String,
+    /// Hash of these, see [`hash_of`]: a recording whose device or body was exchanged says which.
+    pub device_hash: String,
     /// Rate, stiffness, damping, maximum force, velocity corner, soft start, and the body's origin: SI units.
     pub settings: [f32; 9],
     /// The rendering's name: smooth, eased or plain.
@@ -51,6 +53,8 @@ pub struct RecordedBody {
     pub name: String,
     /// Its file, in base64.
     pub file: String,
+    /// Hash of the file.
+    pub hash: String,
 }
 
 /// A scene of a recorded run.
@@ -70,7 +74,8 @@ fn plain() -> String {
 impl RecordedBody {
     /// A body of a name, from its file.
     pub fn new(name: &str, file: &[u8]) -> Self {
-        Self { name: name.to_owned(), file: STANDARD.encode(file) }
+        let file = STANDARD.encode(file);
+        Self { name: name.to_owned(), hash: hash_of(&file), file }
     }
 }
 
@@ -132,6 +137,7 @@ impl Recording {
             body_origin_m: body_origin,
         } = *of.settings;
         let [x, y, z] = body_origin.to_array();
+        let device_numbers = in_base64(&of.numbers.numbers());
         Self {
             palpate: "recording".to_owned(),
             on: on.to_owned(),
@@ -139,7 +145,8 @@ impl Recording {
             bodies: of.bodies,
             scene: of.scene,
             device: of.device.to_owned(),
-            device_numbers: in_base64(&of.numbers.numbers()),
+            device_hash: hash_of(&device_numbers),
+            device_numbers,
             settings: [rate, stiffness, damping, max_force, velocity_corner, soft_start, x, y, z],
             rendering: of.rendering.to_owned(),
             link_timeout: of.link_timeout,
@@ -149,6 +156,12 @@ impl Recording {
             hash: format!("{:08x}", Summary::new(trace).state_hash),
         }
     }
+}
+
+/// FNV-1a over the letters, as the page computes it.
+fn hash_of(text: &str) -> String {
+    let hash = text.bytes().fold(0x811c_9dc5_u32, |hash, byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193));
+    format!("{hash:08x}")
 }
 
 /// Numbers with all their bits, which decimals in JSON have only where they are finite.
