@@ -56,7 +56,7 @@ def test_c_sharp():
     frames = re.findall(r"^\| `([0-9a-f ]+)` \| ([^|]+) \|$", (DOCS / "howto/link.md").read_text(), re.M)
     shown = {says.strip(): frame for frame, says in frames}
     sent = [
-        shown["hello, in version 4"],
+        shown["hello, in version 5"],
         shown["the host is there"],
         shown["stop"],
         shown["order 1: a push of 0, 0, 0.5 N"],

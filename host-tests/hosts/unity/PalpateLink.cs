@@ -66,7 +66,7 @@ namespace Palpate
     public static class Frames
     {
         /// <summary>The wire's version of this file: a device of another one must not be commanded.</summary>
-        public const byte Version = 4;
+        public const byte Version = 5;
 
         /// <summary>Greets the device.</summary>
         public static byte[] Hello() { return Pack(new byte[] { 5, Version }); }
