@@ -28,7 +28,7 @@ impl<S: Surface, const N: usize> Scene<'_, S, N> {
     ) -> Result<(), SceneError> {
         let Some(part) = state.parts.get(index) else { return Err(SceneError::Missing(saturated(index))) };
         let friction = part.friction;
-        self.check(index, [stiffness, stiffest_beside(state, index)], damping, friction.as_ref())?;
+        self.check(index, [stiffness, self.stiffest_now(state, index)], damping, friction.as_ref())?;
         (state.parts[index].stiffness, state.parts[index].damping) = (stiffness, damping);
         state.switched = true;
         Ok(())
@@ -46,7 +46,7 @@ impl<S: Surface, const N: usize> Scene<'_, S, N> {
     ) -> Result<(), SceneError> {
         let Some(part) = state.parts.get(index) else { return Err(SceneError::Missing(saturated(index))) };
         let (stiffness, damping) = (part.stiffness, part.damping);
-        self.check(index, [stiffness, stiffest_beside(state, index)], damping, friction.as_ref())?;
+        self.check(index, [stiffness, self.stiffest_now(state, index)], damping, friction.as_ref())?;
         state.parts[index].friction = friction;
         state.switched = true;
         Ok(())
@@ -180,6 +180,13 @@ impl<S: Surface, const N: usize> Scene<'_, S, N> {
         Ok(())
     }
 
+    /// The stiffness of the stiffest body beside this one, as it is now, N/m.
+    fn stiffest_now(&self, state: &SceneState<S::Witness, N>, index: usize) -> f32 {
+        let beside = state.parts.iter().zip(&self.parts).enumerate().filter(|(other, _)| *other != index);
+        let each = beside.map(|(_, (now, part))| part.material.steepest(now.stiffness, self.limits().max_force_n));
+        each.fold(0.0, |stiffest, its| if its > stiffest { its } else { stiffest })
+    }
+
     pub(super) fn forget(&self, state: &mut SceneState<S::Witness, N>, index: usize) {
         let part = &mut state.parts[index];
         self.parts[index].surface.release(&mut part.witness);
@@ -219,12 +226,6 @@ impl<S: Commanded, const N: usize> Scene<'_, S, N> {
         self.forget(state, index);
         Ok(())
     }
-}
-
-/// The stiffness of the stiffest body beside this one, as it is now, N/m.
-fn stiffest_beside<W, const N: usize>(state: &SceneState<W, N>, index: usize) -> f32 {
-    let beside = state.parts.iter().enumerate().filter(|(other, _)| *other != index);
-    beside.fold(0.0, |stiffest, (_, part)| if part.stiffness > stiffest { part.stiffness } else { stiffest })
 }
 
 pub(super) fn saturated(index: usize) -> u8 {

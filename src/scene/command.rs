@@ -140,9 +140,9 @@ pub enum SceneError {
     /// Friction is negative, not finite, or holds more slipping than sticking.
     #[error("body {0}: friction must be finite and not negative, its dynamic coefficient not above the static one")]
     Friction(u8),
-    /// A texture's share is not between 0 and 1.
-    #[error("body {0}: a texture's share must be between 0 and 1")]
-    Texture(u8),
+    /// A number of an effect is out of range, see [`crate::render::Effects::check`].
+    #[error("body {0}: an effect or its limit of force is out of range")]
+    Effects(u8),
     /// Axes that are not orthonormal, a number that is not finite, no mass.
     #[error("body {0}: its motion has axes that are not orthonormal, a number that is not finite, or no mass")]
     Motion(u8),
@@ -201,7 +201,7 @@ impl SceneError {
             Self::Friction(_) => {
                 "friction must be finite and not negative, its dynamic coefficient not above the static one"
             }
-            Self::Texture(_) => "a texture's share must be between 0 and 1",
+            Self::Effects(_) => "an effect or its limit of force is out of range",
             Self::Motion(_) => "its motion has axes that are not orthonormal, a number that is not finite, or no mass",
             Self::Light(_) => "it is too light for its stiffness, damping and friction at this rate",
             Self::Slack(_) => "friction on a free body needs a damping of at least its stiffness times half a tick",

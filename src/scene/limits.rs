@@ -1,6 +1,8 @@
 //! Limits of the bodies of a scene.
 
+use super::part::Part;
 use crate::device::Device;
+use crate::render::EffectLimits;
 
 /// The limits of all bodies of a scene.
 ///
@@ -47,6 +49,29 @@ impl Limits {
             rate_hz: rate,
             max_speed_m_per_s: 2.0,
         }
+    }
+
+    /// The limits that are left for the effects of one of these bodies.
+    pub const fn for_effects<S>(&self, parts: &[Part<'_, S>], index: usize) -> EffectLimits {
+        EffectLimits {
+            force_n: self.max_force_n,
+            stiffness_n_per_m: self.max_stiffness_n_per_m - self.stiffest_beside(parts, index),
+            damping_n_s_per_m: self.max_damping_n_s_per_m - parts[index].material.damping_n_s_per_m,
+        }
+    }
+
+    /// The stiffness of the stiffest body beside this one, as configured, N/m.
+    pub(super) const fn stiffest_beside<S>(&self, parts: &[Part<'_, S>], index: usize) -> f32 {
+        let (mut stiffest, mut beside) = (0.0, 0);
+        while beside < parts.len() {
+            let material = &parts[beside].material;
+            let its = material.steepest(material.stiffness_n_per_m, self.max_force_n);
+            if beside != index && its > stiffest {
+                stiffest = its;
+            }
+            beside += 1;
+        }
+        stiffest
     }
 
     pub(super) const fn is_valid(&self) -> bool {

@@ -5,7 +5,7 @@ use super::path::{Path, finite, is_rigid};
 use super::rigid::{Moving, RigidBody, Wrench};
 use crate::body::Body;
 use crate::math::{Vec3, vec3};
-use crate::render::{Anchor, Friction, Texture};
+use crate::render::{Anchor, Effects, Friction};
 use crate::servo::{SoftBody, Tracked};
 use crate::track::{Contact, Placement};
 
@@ -29,14 +29,22 @@ pub struct Material {
     pub damping_n_s_per_m: f32,
     /// Dry friction.
     pub friction: Option<Friction>,
-    /// Texture on top; it is asked in the body's own frame.
-    pub texture: Option<Texture>,
+    /// Texture, magnet, viscous layer and limit of force. By reference: most bodies have none.
+    pub effects: Option<&'static Effects>,
 }
 
 impl Material {
     /// A spring and a damper.
     pub const fn new(stiffness: f32, damping: f32) -> Self {
-        Self { stiffness_n_per_m: stiffness, damping_n_s_per_m: damping, friction: None, texture: None }
+        Self { stiffness_n_per_m: stiffness, damping_n_s_per_m: damping, friction: None, effects: None }
+    }
+
+    /// The steepest change of the force of a body of this stiffness with the tool's position, N/m.
+    pub(super) const fn steepest(&self, stiffness: f32, max_force: f32) -> f32 {
+        match self.effects {
+            Some(effects) if effects.stiffness(max_force) > stiffness => effects.stiffness(max_force),
+            _ => stiffness,
+        }
     }
 }
 

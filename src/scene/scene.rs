@@ -72,26 +72,39 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
     ///
     /// # Errors
     /// The first choice that is refused, naming the body by its index.
-    pub const fn try_new(limits: Limits, parts: [Part<'a, S>; N]) -> Result<Self, SceneError> {
+    pub const fn try_new(limits: Limits, mut parts: [Part<'a, S>; N]) -> Result<Self, SceneError> {
         if N == 0 || N > 32 {
             return Err(SceneError::Bodies);
         }
         if !limits.is_valid() {
             return Err(SceneError::Limits);
         }
+        // The sphere of a body holds its effects too, so that it is visited in time.
+        let mut index = 0;
+        while index < N {
+            if let Some(effects) = parts[index].material.effects {
+                parts[index].sphere.radius_m += effects.reach();
+            }
+            index += 1;
+        }
         let scene = Self { parts, limits };
         let mut index = 0;
         while index < N {
             let Part { material, group, .. } = &scene.parts[index];
-            let stiffness = [material.stiffness_n_per_m, scene.stiffest_beside(index)];
+            let number = index as u8;
+            let beside = limits.stiffest_beside(&scene.parts, index);
+            let left = limits.for_effects(&scene.parts, index);
+            // A wall that is too stiff by itself is refused as such, below.
+            let fits = material.stiffness_n_per_m <= left.stiffness_n_per_m && left.damping_n_s_per_m >= 0.0;
+            if fits
+                && let Some(effects) = material.effects
+                && effects.check(&left).is_err()
+            {
+                return Err(SceneError::Effects(number));
+            }
+            let stiffness = [material.stiffness_n_per_m, beside];
             if let Err(error) = scene.check(index, stiffness, material.damping_n_s_per_m, material.friction.as_ref()) {
                 return Err(error);
-            }
-            let number = index as u8;
-            if let Some(texture) = &material.texture
-                && !(texture.max_fraction >= 0.0 && texture.max_fraction <= 1.0)
-            {
-                return Err(SceneError::Texture(number));
             }
             if !scene.parts[index].is_held() {
                 return Err(SceneError::Sphere(number));
@@ -125,20 +138,6 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
         &self.limits
     }
 
-    /// The stiffness of the stiffest body beside this one, as configured, N/m.
-    const fn stiffest_beside(&self, index: usize) -> f32 {
-        let mut stiffest = 0.0;
-        let mut beside = 0;
-        while beside < N {
-            let its = self.parts[beside].material.stiffness_n_per_m;
-            if beside != index && its > stiffest {
-                stiffest = its;
-            }
-            beside += 1;
-        }
-        stiffest
-    }
-
     /// Whether a body may have this stiffness, damping and friction, beside one of that stiffness: two bodies at once
     /// push with the sum of both.
     pub(super) const fn check(
@@ -149,7 +148,14 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
         friction: Option<&Friction>,
     ) -> Result<(), SceneError> {
         let number = index as u8;
-        let Part { motion, sphere, .. } = &self.parts[index];
+        let Part { motion, sphere, material, .. } = &self.parts[index];
+        let (stiffness, damping) = match material.effects {
+            // A negative one stays negative, to be refused.
+            Some(effects) if stiffness >= 0.0 && damping >= 0.0 => {
+                (material.steepest(stiffness, self.limits.max_force_n), damping + effects.damping())
+            }
+            _ => (stiffness, damping),
+        };
         if !(stiffness >= 0.0 && stiffness + beside <= self.limits.max_stiffness_n_per_m) {
             return Err(SceneError::Stiffness(number));
         }
@@ -185,6 +191,10 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
 
     pub(super) const fn bit(&self, index: usize) -> u32 {
         1 << (self.parts[index].group & 31)
+    }
+
+    const fn has_effects(&self, index: usize) -> bool {
+        self.parts[index].material.effects.is_some()
     }
 
     #[inline]
@@ -280,11 +290,12 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
             let left = usize::from(state.tracked[slot]);
             if left < N {
                 state.parts[left].force = Vec3::ZERO;
+                state.switched |= self.has_effects(left);
                 self.leave(state, left);
             }
             state.tracked[slot] = index as u8;
-            // It may be in contact since its last check: its force rises from zero.
-            state.switched |= state.parts[index].contact == Contact::Touching;
+            // It may be in contact, or within the reach of its effects, since its last check: its force rises from zero.
+            state.switched |= state.parts[index].contact == Contact::Touching || self.has_effects(index);
         }
     }
 
@@ -303,7 +314,7 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
     fn press(&self, state: &mut SceneState<S::Witness, N>, index: usize, period: f32) -> Vec3 {
         let Part { surface, material, motion, .. } = &self.parts[index];
         let part = &mut state.parts[index];
-        let point = part.witness.witness().surface.point;
+        let mut point = part.witness.witness().surface.point;
         let mut push = 0.0;
         let penalty = Penalty {
             stiffness_n_per_m: part.stiffness,
@@ -333,7 +344,17 @@ impl<'a, S: Surface, const N: usize> Scene<'a, S, N> {
         let witness = part.witness.witness();
         let place = || (witness.parameters, witness.surface.tangent_u);
         let press = Press { point, normal: part.normal, velocity: part.velocity, push };
-        let force = press.force(part.friction.as_ref(), material.texture.as_ref(), &mut part.anchor, place);
+        let force = match material.effects {
+            None => press.force(part.friction.as_ref(), None, &mut part.anchor, place),
+            Some(effects) => {
+                let texture = effects.texture.as_ref();
+                let pressed = press.force(part.friction.as_ref(), texture, &mut part.anchor, place);
+                // A drag acts where the tool is, or it would turn a free body with energy of its own.
+                point += part.normal * part.witness.gap();
+                let is_near = part.contact != Contact::Behind && !part.unexplained;
+                if is_near { effects.force(pressed, part.gap, part.normal, part.velocity) } else { pressed }
+            }
+        };
         part.force = part.frame.to_scene(force);
         if let Motion::Free(_) = motion {
             let arm = part.frame.point_to_scene(point) - part.moving.position();

@@ -199,7 +199,7 @@ pub struct Rendering {
 pub enum RenderingError {
     /// A parameter of the friction is negative or not finite, or slipping holds more than sticking.
     Friction,
-    /// The texture's share is not between 0 and 1.
+    /// A number of the texture is out of range: [`Texture::is_valid`].
     Texture,
     /// The tool is too light for coupling and surface at this rate, or a parameter is negative or not finite.
     Coupling,
@@ -220,7 +220,7 @@ impl RenderingError {
             Self::Friction => {
                 "friction must be finite and not negative, its dynamic coefficient not above the static one"
             }
-            Self::Texture => "a texture's share must be between 0 and 1",
+            Self::Texture => "a texture needs a share between 0 and 1, a pitch of 0.1 mm to 1 m and a unit direction",
             Self::Coupling => "the virtual tool is too light for its coupling and the surface at this rate",
             Self::Passivity => "passivity control's parameters must be finite and not negative",
             Self::Ease => "easing's onset must be finite and not negative, its rate finite and positive",
@@ -267,7 +267,7 @@ impl Rendering {
             return Err(RenderingError::Friction);
         }
         if let Some(texture) = &self.texture
-            && !(texture.max_fraction >= 0.0 && texture.max_fraction <= 1.0)
+            && !texture.is_valid()
         {
             return Err(RenderingError::Texture);
         }
@@ -507,6 +507,7 @@ mod settings_tests {
 mod rendering_tests {
     use super::*;
     use crate::math::Vec3;
+    use crate::render::TextureShape;
 
     const STIFFNESS: f32 = 1_000.0;
     const PERIOD: f32 = 1e-3;
@@ -530,7 +531,7 @@ mod rendering_tests {
 
     #[test]
     fn each_choice_that_cannot_be_felt_is_refused_by_its_name() {
-        let texture = Texture { force: |_| Vec3::ZERO, max_fraction: 1.0 };
+        let texture = Texture { shape: TextureShape::Custom(|_| Vec3::ZERO), max_fraction: 1.0 };
         let all = Rendering {
             friction: Some(FRICTION),
             texture: Some(texture),

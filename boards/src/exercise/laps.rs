@@ -7,7 +7,7 @@ use palpate::device::{
 };
 use palpate::math::{Vec3, vec3};
 use palpate::patch::SplinePatch;
-use palpate::render::{Coupling, Friction, Passivity, Texture, grating};
+use palpate::render::{Coupling, Friction, Passivity, Texture, TextureShape, grating};
 use palpate::servo::{
     Config, ContactLimits, Guarded, Rendering, SafeOutput, Safety, Servo, Settings, SoftBody, StuckLimits, Unguarded,
 };
@@ -83,7 +83,7 @@ pub static RICH: ServoOf<SerialArm> = Servo::new(
         settings: TABLE_1C_AT,
         rendering: Rendering {
             friction: Some(FRICTION),
-            texture: Some(Texture { force: |touch| grating(touch, 100.0, 0.3), max_fraction: 0.2 }),
+            texture: Some(Texture { shape: TextureShape::Custom(|touch| grating(touch, 100.0, 0.3)), max_fraction: 0.2 }),
             passivity: Some(PASSIVITY),
             max_slew_n_per_s: 200.0,
             ..Rendering::PLAIN

@@ -5,7 +5,7 @@ use crate::status::{Status, code};
 use core::ptr::null_mut;
 use core::sync::atomic::{AtomicPtr, Ordering};
 use palpate_core::math::Vec3;
-use palpate_core::render::{Texture, Touch as Touched};
+use palpate_core::render::{Texture, TextureShape, Touch as Touched};
 
 /// Inputs of a texture.
 #[derive(Clone, Copy)]
@@ -40,7 +40,7 @@ pub fn texture(max_share: f32) -> Result<Option<Texture>, Status> {
     if FORCE.load(Ordering::Acquire).is_null() {
         return Err(Status::SettingsTexture);
     }
-    Ok(Some(Texture { force: asked, max_fraction: max_share }))
+    Ok(Some(Texture { shape: TextureShape::Custom(asked), max_fraction: max_share }))
 }
 
 fn asked(touch: &Touched) -> Vec3 {

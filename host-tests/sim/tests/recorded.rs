@@ -7,7 +7,7 @@ use palpate::device::presets::{
     POLHEM_V2_PROTECTION, WOODEN_HAPTICS_2016, WOODEN_HAPTICS_2016_PROTECTION,
 };
 use palpate::math::vec3;
-use palpate::render::Friction;
+use palpate::render::{Effects, Friction, Magnet, Texture, TextureShape, Viscosity};
 use palpate::scene::{Joint, Limits, RigidBody, Sphere, Tether};
 use palpate::track::Placement;
 use palpate_sim::recorded::{Entry, Movement, Recorded, SceneNumbers, Turn};
@@ -91,12 +91,24 @@ fn scenes_come_back_in_every_bit() {
         static_coefficient: 0.5,
         dynamic_coefficient: 0.4,
     };
+    let ridges = TextureShape::Ridges { across: vec3(0.6, 0.8, 0.0), pitch_m: 0.002 };
+    let effects = [
+        Effects { max_force_n: 1.5, ..Effects::NONE },
+        Effects { texture: Some(Texture { shape: ridges, max_fraction: 0.1 }), ..Effects::NONE },
+        Effects {
+            texture: Some(Texture { shape: TextureShape::Bumps { pitch_m: 0.003 }, max_fraction: 0.2 }),
+            magnet: Some(Magnet { force_n: 0.5, reach_m: 0.004 }),
+            viscosity: Some(Viscosity { damping_n_s_per_m: 1.5, reach_m: 0.005 }),
+            ..Effects::NONE
+        },
+    ];
     let entries = (0..).zip(movements).map(|(body, movement)| Entry {
         body,
         movement,
         stiffness: 400.0 + body as f32,
         damping: 1.5,
         friction: (body % 2 == 0).then_some(friction),
+        effects: effects.get(body as usize).copied(),
         sphere: Sphere { centre_m: vec3(0.1, 0.2, 0.3), radius_m: 0.05 },
         group: body as u8,
     });

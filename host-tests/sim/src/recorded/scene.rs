@@ -1,16 +1,17 @@
 //! A scene: how each of its bodies moves and feels, and which it is.
 
 use crate::recorded::walk::{Filled, Taken, Walk};
+use alloc::boxed::Box;
 use alloc::vec;
 use alloc::vec::Vec;
 use palpate::body::Body;
 use palpate::math::Vec3;
-use palpate::render::Friction;
+use palpate::render::{Effects, Friction, Magnet, Texture, TextureShape, Viscosity};
 use palpate::scene::{Joint, Limits, Material, Motion, Part, Path, RigidBody, Sphere, Tether};
 use palpate::track::Placement;
 
 /// The scene of a recorded run.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct SceneNumbers {
     /// Limits of all its parts.
     pub limits: Limits,
@@ -19,7 +20,7 @@ pub struct SceneNumbers {
 }
 
 /// A part of the scene.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub struct Entry {
     /// Index of its body, which several parts may share.
     pub body: u32,
@@ -31,6 +32,8 @@ pub struct Entry {
     pub damping: f32,
     /// Dry friction.
     pub friction: Option<Friction>,
+    /// Its effects; the texture is a named shape.
+    pub effects: Option<Effects>,
     /// Bounding sphere.
     pub sphere: Sphere,
     /// The group it belongs to.
@@ -81,6 +84,7 @@ const VACANT: Entry = Entry {
     stiffness: 0.0,
     damping: 0.0,
     friction: None,
+    effects: None,
     sphere: Sphere { centre_m: Vec3::ZERO, radius_m: 0.0 },
     group: 0,
 };
@@ -138,13 +142,14 @@ impl SceneNumbers {
 
 impl Entry {
     fn part(&self, rate: f32, bodies: &[&'static Body<'static>]) -> Option<Part<'static, Body<'static>>> {
-        let Self { body, movement, stiffness, damping, friction, sphere, group } = *self;
-        let material = Material { friction, ..Material::new(stiffness, damping) };
+        let Self { body, movement, stiffness, damping, friction, effects, sphere, group } = *self;
+        let effects = effects.map(|effects| &*Box::leak(Box::new(effects)));
+        let material = Material { friction, effects, ..Material::new(stiffness, damping) };
         Some(Part { surface: *bodies.get(body as usize)?, motion: movement.at(rate), material, sphere, group })
     }
 
     fn walk(&mut self, walk: &mut impl Walk) {
-        let Self { body, movement, stiffness, damping, friction, sphere, group } = self;
+        let Self { body, movement, stiffness, damping, friction, effects, sphere, group } = self;
         *body = walk.count(*body);
         movement.walk(walk);
         walk.number(stiffness);
@@ -160,10 +165,38 @@ impl Entry {
                 walk.number(number);
             }
         });
+        walk.maybe(effects, Effects::NONE, of_effects);
         walk.vector(&mut sphere.centre_m);
         walk.number(&mut sphere.radius_m);
         *group = walk.count((*group).into()) as u8;
     }
+}
+
+fn of_effects(walk: &mut impl Walk, effects: &mut Effects) {
+    let Effects { texture, magnet, viscosity, max_force_n } = effects;
+    let vacant = Texture { shape: TextureShape::Bumps { pitch_m: 0.0 }, max_fraction: 0.0 };
+    walk.maybe(texture, vacant, |walk, Texture { shape, max_fraction }| {
+        let (mut across, mut pitch) = match *shape {
+            TextureShape::Ridges { across, pitch_m } => (Some(across), pitch_m),
+            TextureShape::Bumps { pitch_m } => (None, pitch_m),
+            TextureShape::Custom(_) => (None, 0.0),
+        };
+        walk.maybe(&mut across, Vec3::ZERO, |walk, across| walk.vector(across));
+        walk.number(&mut pitch);
+        let pitch_m = pitch;
+        *shape = across.map_or(TextureShape::Bumps { pitch_m }, |across| TextureShape::Ridges { across, pitch_m });
+        walk.number(max_fraction);
+    });
+    walk.maybe(magnet, Magnet { force_n: 0.0, reach_m: 0.0 }, |walk, Magnet { force_n, reach_m }| {
+        walk.number(force_n);
+        walk.number(reach_m);
+    });
+    let vacant = Viscosity { damping_n_s_per_m: 0.0, reach_m: 0.0 };
+    walk.maybe(viscosity, vacant, |walk, Viscosity { damping_n_s_per_m, reach_m }| {
+        walk.number(damping_n_s_per_m);
+        walk.number(reach_m);
+    });
+    walk.number(max_force_n);
 }
 
 impl Movement {

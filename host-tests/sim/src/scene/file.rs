@@ -1,5 +1,6 @@
 //! The file, as it is written. Lengths are in millimetres, angles in degrees, all else in SI units.
 
+use palpate::render::{EffectError, EffectField};
 use serde::Deserialize;
 use thiserror::Error;
 
@@ -42,6 +43,14 @@ pub struct BodyEntry {
     pub damping: f32,
     /// Dry friction.
     pub friction: Option<FrictionEntry>,
+    /// Texture along its surface.
+    pub texture: Option<TextureEntry>,
+    /// Pull toward its surface.
+    pub magnet: Option<MagnetEntry>,
+    /// Viscous layer around it.
+    pub viscosity: Option<ViscosityEntry>,
+    /// Its maximum force, N; the device's, if not given.
+    pub max_force: Option<f32>,
     /// Its continuous rotation.
     pub turns: Option<Turn>,
     /// Its continuous oscillation.
@@ -74,6 +83,48 @@ pub struct FrictionEntry {
     /// `μ_d`.
     #[serde(rename = "dynamic")]
     pub dynamic_coefficient: f32,
+}
+
+/// As [`palpate::render::Texture`]: a named shape, and `share`, its force as a share of the normal force.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(tag = "shape", rename_all = "lowercase", deny_unknown_fields)]
+pub enum TextureEntry {
+    /// Ridges across a direction.
+    Ridges {
+        /// Any length but zero, in the model's axes.
+        across: [f64; 3],
+        /// mm.
+        pitch: f64,
+        /// 0 to 1.
+        share: f32,
+    },
+    /// Bumps, across all three axes of the model.
+    Bumps {
+        /// mm.
+        pitch: f64,
+        /// 0 to 1.
+        share: f32,
+    },
+}
+
+/// As [`palpate::render::Magnet`].
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MagnetEntry {
+    /// N.
+    pub force: f32,
+    /// mm.
+    pub reach: f64,
+}
+
+/// As [`palpate::render::Viscosity`].
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ViscosityEntry {
+    /// N·s/m.
+    pub damping: f32,
+    /// mm.
+    pub reach: f64,
 }
 
 /// A turn about an axis.
@@ -190,6 +241,16 @@ pub enum SceneFileError {
         /// The name.
         body: String,
     },
+    /// A number of an effect is out of range.
+    #[error("body {body:?}: {}", out_of_range(.error, *.value))]
+    Effect {
+        /// Its name.
+        body: String,
+        /// The field and its range, in SI units.
+        error: EffectError,
+        /// The number, in SI units.
+        value: f32,
+    },
     /// An error of the library.
     #[error("{}{error}", .body.as_ref().map(|name| format!("{name:?}, ")).unwrap_or_default())]
     Scene {
@@ -198,6 +259,28 @@ pub enum SceneFileError {
         /// Why.
         error: palpate::scene::SceneError,
     },
+}
+
+/// The field as the file names it, the number, the range, and the remedy.
+fn out_of_range(EffectError { field, range: [min, max] }: &EffectError, value: f32) -> String {
+    let (name, unit, remedy) = match field {
+        EffectField::MaxForce => ("max_force", "N", "set a force in this range, or leave it out for the device's"),
+        EffectField::TextureFraction => ("texture.share", "", "set a share in this range"),
+        EffectField::TexturePitch => ("texture.pitch", "mm", "a smaller share or max_force allows a shorter pitch"),
+        EffectField::TextureAcross => ("texture.across", "", "set a unit vector"),
+        EffectField::MagnetForce => ("magnet.force", "N", "set a smaller force, or a greater max_force"),
+        EffectField::MagnetReach => ("magnet.reach", "mm", "a smaller force allows a shorter reach"),
+        EffectField::ViscosityDamping => {
+            ("viscosity.damping", "N·s/m", "set a smaller one, or a smaller damping of the body")
+        }
+        EffectField::ViscosityReach => ("viscosity.reach", "mm", "set a reach in this range"),
+    };
+    // Three digits, rounded into the range; f32 has no more than seven.
+    let scale = if unit == "mm" { 1e3 } else { 1.0 };
+    let [value, min, max] = [value, min * 1.000_5, *max].map(|number| (number * scale * 1e3).round() / 1e3);
+    format!("{name} is {value} {unit}; allowed are {min} to {max} {unit}: {remedy}")
+        .replace(" ;", ";")
+        .replace(" :", ":")
 }
 
 impl SceneFile {
@@ -223,7 +306,11 @@ impl SceneFile {
                 JointEntry::Fixed => None,
                 JointEntry::Slider { axis } | JointEntry::Hinge { axis, .. } => Some(axis),
             });
-            let axes = [entry.turned.map(|turned| turned.axis), entry.turns.map(|turn| turn.axis), joint];
+            let across = match entry.texture {
+                Some(TextureEntry::Ridges { across, .. }) => Some(across),
+                _ => None,
+            };
+            let axes = [entry.turned.map(|turned| turned.axis), entry.turns.map(|turn| turn.axis), joint, across];
             if axes.into_iter().flatten().any(|axis| glam::DVec3::from_array(axis).try_normalize().is_none()) {
                 return Err(SceneFileError::Axis { body: body() });
             }

@@ -9,7 +9,8 @@ mod parts;
 mod source;
 
 pub use file::{
-    BodyEntry, Free, FrictionEntry, JointEntry, MAX_BODIES, SceneFile, SceneFileError, Spring, Sway, Turn, Turned,
+    BodyEntry, Free, FrictionEntry, JointEntry, MAX_BODIES, MagnetEntry, SceneFile, SceneFileError, Spring, Sway,
+    TextureEntry, Turn, Turned, ViscosityEntry,
 };
 pub use parts::Shape;
 pub use source::source;

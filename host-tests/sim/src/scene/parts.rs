@@ -1,11 +1,11 @@
 //! From the file's entries to what the library takes.
 
-use super::file::{BodyEntry, JointEntry, SceneFile, SceneFileError};
+use super::file::{BodyEntry, JointEntry, MagnetEntry, SceneFile, SceneFileError, TextureEntry, ViscosityEntry};
 use crate::recorded::{Entry, Movement, SceneNumbers, Turn};
 use glam::{DMat3, DVec3};
 use palpate::body::Body;
 use palpate::math::{Vec3, vec3};
-use palpate::render::Friction;
+use palpate::render::{EffectField, Effects, Friction, Magnet, Texture, TextureShape, Viscosity};
 use palpate::scene::{Joint, Limits, Material, Part, RigidBody, Scene, SceneError, Sphere, Tether};
 use palpate::servo::Surface;
 use palpate::track::Placement;
@@ -52,14 +52,21 @@ impl SceneFile {
         limits: Limits,
         bodies: &[(&'static S, Shape)],
     ) -> Result<Scene<'static, S, N>, SceneFileError> {
-        let parts = self.parts(limits.rate_hz, bodies);
+        let (limits, parts) = (self.limits(limits), self.parts(limits.rate_hz, bodies));
         let parts = <[_; N]>::try_from(parts).unwrap_or_else(|_| panic!("not {N} bodies"));
-        Scene::try_new(self.limits(limits), parts).map_err(|error| {
+        Scene::try_new(limits, parts).map_err(|error| {
+            if let SceneError::Effects(index) = error
+                && let Some(effects) = parts[usize::from(index)].material.effects
+                && let Err(error) = effects.check(&limits.for_effects(&parts, index.into()))
+            {
+                let body = self.body[usize::from(index)].name.clone();
+                return SceneFileError::Effect { body, error, value: number(effects, error.field) };
+            }
             let index = match error {
                 SceneError::Stiffness(index)
                 | SceneError::Damping(index)
                 | SceneError::Friction(index)
-                | SceneError::Texture(index)
+                | SceneError::Effects(index)
                 | SceneError::Motion(index)
                 | SceneError::Light(index)
                 | SceneError::Slack(index)
@@ -81,6 +88,7 @@ impl SceneFile {
             stiffness: part.material.stiffness_n_per_m,
             damping: part.material.damping_n_s_per_m,
             friction: part.material.friction,
+            effects: part.material.effects.copied(),
             sphere: part.sphere,
             group: part.group,
         });
@@ -114,11 +122,33 @@ impl BodyEntry {
                 stiffness_n_per_m: self.stiffness,
                 damping_n_s_per_m: self.damping,
                 friction,
-                texture: None,
+                effects: self.effects(),
             },
             sphere: Sphere { centre_m: single(shape.middle()), radius_m: shape.radius() },
             group: self.group,
         }
+    }
+
+    /// They live as long as the program, as its surfaces do.
+    fn effects(&self) -> Option<&'static Effects> {
+        let texture = self.texture.map(|texture| match texture {
+            TextureEntry::Ridges { across, pitch, share } => Texture {
+                shape: TextureShape::Ridges { across: unit(across), pitch_m: (pitch * 1e-3) as f32 },
+                max_fraction: share,
+            },
+            TextureEntry::Bumps { pitch, share } => {
+                Texture { shape: TextureShape::Bumps { pitch_m: (pitch * 1e-3) as f32 }, max_fraction: share }
+            }
+        });
+        let magnet =
+            self.magnet.map(|MagnetEntry { force, reach }| Magnet { force_n: force, reach_m: (reach * 1e-3) as f32 });
+        let viscosity = self.viscosity.map(|ViscosityEntry { damping, reach }| Viscosity {
+            damping_n_s_per_m: damping,
+            reach_m: (reach * 1e-3) as f32,
+        });
+        let is_any = texture.is_some() || magnet.is_some() || viscosity.is_some() || self.max_force.is_some();
+        let max_force_n = self.max_force.unwrap_or(f32::INFINITY);
+        is_any.then(|| &*Box::leak(Box::new(Effects { texture, magnet, viscosity, max_force_n })))
     }
 
     /// Where the frame of the tables is at the start.
@@ -179,6 +209,22 @@ impl BodyEntry {
         let sway = self.sways.map(|sway| (single(metres(sway.by)), (sway.often * core::f64::consts::TAU) as f32));
         Movement::Prescribed { start, turn, sway }
     }
+}
+
+/// A number of an effect, in SI units.
+fn number(effects: &Effects, field: EffectField) -> f32 {
+    let (texture, magnet) = (effects.texture.as_ref(), effects.magnet.as_ref());
+    match field {
+        EffectField::MaxForce => Some(effects.max_force_n),
+        EffectField::TextureFraction => texture.map(|texture| texture.max_fraction),
+        EffectField::TexturePitch => texture.and_then(|texture| texture.shape.pitch()),
+        EffectField::TextureAcross => None,
+        EffectField::MagnetForce => magnet.map(|magnet| magnet.force_n),
+        EffectField::MagnetReach => magnet.map(|magnet| magnet.reach_m),
+        EffectField::ViscosityDamping => Some(effects.damping()),
+        EffectField::ViscosityReach => effects.viscosity.map(|viscosity| viscosity.reach_m),
+    }
+    .unwrap_or(f32::NAN)
 }
 
 fn metres(millimetres: [f64; 3]) -> DVec3 {

@@ -4,6 +4,7 @@ use super::file::SceneFile;
 use super::parts::Shape;
 use crate::recorded::{Movement, Turn};
 use palpate::math::Vec3;
+use palpate::render::{Effects, Texture, TextureShape};
 use palpate::scene::{Joint, Limits, Part, Tether};
 use palpate::track::Placement;
 use std::fmt::Write as _;
@@ -105,10 +106,38 @@ fn material<S>(part: &Part<'static, S>) -> String {
             )
         },
     );
+    let effects = material.effects.map_or_else(|| "None".to_owned(), effects);
     format!(
-        "palpate::scene::Material {{ friction: {friction}, ..palpate::scene::Material::new({:?}, {:?}) }}",
+        "palpate::scene::Material {{ friction: {friction}, effects: {effects}, ..palpate::scene::Material::new({:?}, {:?}) }}",
         material.stiffness_n_per_m, material.damping_n_s_per_m
     )
+}
+
+fn effects(Effects { texture, magnet, viscosity, max_force_n }: &Effects) -> String {
+    let mut text = String::from("Some(const { &palpate::render::Effects { ");
+    if let Some(Texture { shape, max_fraction }) = texture {
+        let shape = match shape {
+            TextureShape::Ridges { across, pitch_m } => {
+                format!("Ridges {{ across: {}, pitch_m: {pitch_m:?} }}", vector(*across))
+            }
+            TextureShape::Bumps { pitch_m } => format!("Bumps {{ pitch_m: {pitch_m:?} }}"),
+            TextureShape::Custom(_) => unreachable!("a file names its shapes"),
+        };
+        let _ = write!(
+            text,
+            "texture: Some(palpate::render::Texture {{ shape: palpate::render::TextureShape::{shape}, max_fraction: {max_fraction:?} }}), "
+        );
+    }
+    // As `Debug` writes them they are source, but for their path.
+    let written = [
+        magnet.map(|magnet| format!("magnet: Some(palpate::render::{magnet:?})")),
+        viscosity.map(|viscosity| format!("viscosity: Some(palpate::render::{viscosity:?})")),
+        max_force_n.is_finite().then(|| format!("max_force_n: {max_force_n:?}")),
+    ];
+    for part in written.into_iter().flatten() {
+        text += &format!("{part}, ");
+    }
+    text + "..palpate::render::Effects::NONE } })"
 }
 
 fn motion(movement: &Movement, rate: f32) -> String {

@@ -76,3 +76,31 @@ fn what_the_library_refuses_names_the_body() {
         assert_eq!(refused(from, to), SceneFileError::Scene { body: Some(name.to_owned()), error });
     }
 }
+
+#[test]
+fn an_effect_out_of_range_names_body_field_range_and_remedy() {
+    let bodies = [(&BOX, SHAPE); 3];
+    // 2,000 N/m less the 400 of the stiffest other body, 5 N, 5 N·s/m less the body's own 1.5.
+    for (effect, said) in [
+        ("max_force = 6", "max_force is 6 N; allowed are 0 to 5 N: set a force in this range"),
+        ("max_force = nan", "max_force is NaN N; allowed are 0 to 5 N"),
+        (
+            "texture = { shape = \"bumps\", pitch = 2, share = 1.5 }",
+            "texture.share is 1.5; allowed are 0 to 1: set a share",
+        ),
+        (
+            "texture = { shape = \"ridges\", across = [1, 1, 0], pitch = 2, share = 0.2 }",
+            "texture.pitch is 2 mm; allowed are 3.929 to 1000 mm: a smaller share or max_force",
+        ),
+        ("magnet = { force = 6, reach = 20 }", "magnet.force is 6 N; allowed are 0 to 5 N: set a smaller force"),
+        ("magnet = { force = 2, reach = 4 }", "magnet.reach is 4 mm; allowed are 5.002 to 100 mm: a smaller force"),
+        ("viscosity = { damping = 4, reach = 4 }", "viscosity.damping is 4 N·s/m; allowed are 0 to 3.5 N·s/m: set"),
+        ("viscosity = { damping = 1, reach = 0 }", "viscosity.reach is 0 mm; allowed are 0.5 to 100 mm: set a reach"),
+    ] {
+        let file = with("damping = 1.5", &format!("damping = 1.5\n{effect}")).unwrap();
+        let error = file.scene::<_, 3>(LIMITS, &bodies).unwrap_err().to_string();
+        assert!(error.starts_with(&format!("body \"part on the table\": {said}")), "{effect}: {error}");
+    }
+    let said = with("damping = 1.5", "damping = 1.5\ntexture = { shape = \"waves\" }").unwrap_err().to_string();
+    assert!(said.contains("unknown variant `waves`, expected `ridges` or `bumps`"), "{said}");
+}

@@ -2,6 +2,7 @@
 
 mod books;
 mod common;
+mod effects;
 mod files;
 mod loops;
 mod motion;

@@ -5,7 +5,7 @@ use crate::traces::SETTINGS;
 use palpate::device::presets::WOODEN_HAPTICS_2016;
 use palpate::device::{Counts, Device, Duty, Motor, SerialArm, VelocityMethod};
 use palpate::math::{Vec3, vec3};
-use palpate::render::{Coupling, Friction, Passivity, Texture, grating};
+use palpate::render::{Coupling, Friction, Passivity, Texture, TextureShape, grating};
 use palpate::servo::{
     Config, Event, Input, OnePatch, Phase, Rendering, ResetReason, SafeOutput, Safety, Servo, Settings, StuckLimits,
     Surface,
@@ -41,13 +41,16 @@ fn renderings() -> Vec<Rendering> {
         Rendering::PLAIN,
         Rendering {
             friction: Some(friction),
-            texture: Some(Texture { force: |touch| grating(touch, 100.0, 0.3), max_fraction: 0.2 }),
+            texture: Some(Texture {
+                shape: TextureShape::Custom(|touch| grating(touch, 100.0, 0.3)),
+                max_fraction: 0.2,
+            }),
             max_slew_n_per_s: 200.0,
             ..Rendering::PLAIN
         },
         Rendering {
             velocity: VelocityMethod::BetweenCounts,
-            texture: Some(Texture { force: wild, max_fraction: 0.5 }),
+            texture: Some(Texture { shape: TextureShape::Custom(wild), max_fraction: 0.5 }),
             coupling: Some(Coupling { stiffness_n_per_m: 500.0, damping_n_s_per_m: 3.0, mass_kg: 0.02 }),
             friction: Some(friction),
             passivity: Some(passivity),

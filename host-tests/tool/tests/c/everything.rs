@@ -9,7 +9,7 @@ use palpate::device::presets::{WOODEN_HAPTICS_2016, WOODEN_HAPTICS_2016_PROTECTI
 use palpate::device::{Counts, Protection, SupplyRange};
 use palpate::field::Bump;
 use palpate::math::vec3;
-use palpate::render::{Coupling, Passivity, Texture, Touch};
+use palpate::render::{Coupling, Passivity, Texture, TextureShape, Touch};
 use palpate::servo::{
     Config, Event, Fault, Input, Rendering, Safety, Servo, Settings, SoftBody, Surface, Tracked as _,
 };
@@ -91,7 +91,7 @@ fn in_rust<S: Surface>(surface: &S, counts: &[[i32; 3]], enable_at: usize) -> Re
         body_origin_m: vec3(-0.03, -0.02, -0.01675),
     };
     let rendering = Rendering {
-        texture: Some(Texture { force: bowl, max_fraction: 0.2 }),
+        texture: Some(Texture { shape: TextureShape::Custom(bowl), max_fraction: 0.2 }),
         coupling: Some(Coupling { stiffness_n_per_m: 800.0, damping_n_s_per_m: 4.0, mass_kg: 0.05 }),
         passivity: Some(Passivity {
             device_damping_n_s_per_m: 0.5,

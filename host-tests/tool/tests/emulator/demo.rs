@@ -67,15 +67,17 @@ fn the_protected_demo_touches_alike_on_host_and_board_and_without_an_alarm() {
     assert!(board.touches > 0 && board.fault.is_none(), "{board}");
 }
 
-/// Bodies on paths, and a free one that is pushed.
+/// Bodies on paths, and a free one that is pushed; and on the first board bodies with effects.
 #[test]
 fn a_scene_that_moves_is_felt_alike_on_the_host_and_every_board() {
     if !is_wanted("a scene on the emulated boards") {
         return;
     }
-    let scene = format!("{}/../scenes/turntable.toml", env!("CARGO_MANIFEST_DIR"));
-    for &board in boards() {
-        let arguments = ["demo", "--model", &scene, "--rate", "3000", "--seconds", "3"];
+    let [turntable, effects] =
+        ["turntable", "effects"].map(|name| format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR")));
+    let runs = boards().iter().map(|&board| (board, &turntable)).chain([(Board::M4, &effects)]);
+    for (board, scene) in runs {
+        let arguments = ["demo", "--model", scene, "--rate", "3000", "--seconds", "3"];
         let [there, _] = traces_on(board, &arguments).map(|trace| Summary::new(&trace));
         assert!(there.touches > 0 && there.fault.is_none(), "{board:?}: {there}");
         println!("{board:?}: {:?}", there.rows());
