@@ -34,6 +34,8 @@ pub struct Recording {
     pub ticks: Vec<Tick>,
     /// The device's name, where the recording has it.
     pub device: Option<String>,
+    /// The same of the model or scene.
+    pub model: Option<String>,
 }
 
 /// Why a run gives no recording.
@@ -90,5 +92,5 @@ pub fn record<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize>(
         }
         plant.advance(duties);
     }
-    Ok(Recording { rate, ticks, device: None })
+    Ok(Recording { rate, ticks, device: None, model: None })
 }

@@ -28,7 +28,7 @@ pub fn read(path: &Path) -> anyhow::Result<Recording> {
         Ok([needed(&format!("{stem}_x"))?, needed(&format!("{stem}_y"))?, needed(&format!("{stem}_z"))?])
     };
     let (probe, force, gap, contact) = (axes("probe")?, axes("force")?, needed("gap")?, needed("contact")?);
-    let (time, rate, device) = (column("time"), column("rate"), column("device"));
+    let (time, rate, names) = (column("time"), column("rate"), ["device", "model"].map(column));
     if time.is_none() && rate.is_none() {
         bail!("{}: no column \"time\" or \"rate\"", path.display());
     }
@@ -54,8 +54,16 @@ pub fn read(path: &Path) -> anyhow::Result<Recording> {
         {
             rates.push(at(column)?);
         }
-        if recording.device.is_none() {
-            recording.device = device.and_then(|column| record.get(column)).map(str::to_owned);
+        for (kept, column) in [&mut recording.device, &mut recording.model].into_iter().zip(names) {
+            let Some(name) = column.and_then(|column| record.get(column)) else { continue };
+            let kept = kept.get_or_insert_with(|| name.to_owned());
+            if kept != name || name.is_empty() {
+                bail!(
+                    "{}: row {} is of {name:?}, the rows before it of {kept:?}; record one device and one model a file",
+                    path.display(),
+                    row + 2
+                );
+            }
         }
         recording.ticks.push(Tick {
             probe: vector(probe)?,

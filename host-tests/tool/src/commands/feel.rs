@@ -55,8 +55,8 @@ pub struct Arguments {
     /// Detection threshold: CSV of frequency, Hz, and peak displacement, m, under a header
     #[arg(long, value_name = "FILE.csv")]
     threshold: Option<PathBuf>,
-    /// Recording to evaluate, from `sim --csv` or `monitor --csv`, of one device
-    #[arg(long, value_name = "FILE.csv")]
+    /// Recording to evaluate, from `sim --csv` or `monitor --csv`, of one device and one model
+    #[arg(long, value_name = "FILE.csv", conflicts_with = "model")]
     recording: Option<PathBuf>,
     /// Folder for figures (CSV) and report (HTML)
     #[arg(long, default_value = "palpate-report/feel")]
@@ -144,12 +144,18 @@ fn read_threshold(path: &Path) -> anyhow::Result<Threshold> {
 fn print_recording(path: &Path, device: &ShippedDevice, threshold: &Threshold) -> anyhow::Result<()> {
     let recording = recorded::read(path)?;
     if let Some(made) = recording.device.as_deref().filter(|made| *made != device.name) {
-        bail!("{}: recorded with {made}, not with {}: change --device", path.display(), device.name);
+        bail!("{}: recorded with {made}, not with {}: add --device {made}", path.display(), device.name);
+    }
+    if recording.device.is_none() {
+        println!("{}: it does not name its device; {} is assumed", path.display(), device.name);
     }
     let figures = recorded::figures(&recording, Slice::of(device).mass, threshold);
     let milli = |force: f64| format!("{:.1} mN", force * 1e3);
     let seconds = recording.ticks.len() as f64 / recording.rate;
     println!("{}: {} ticks, {seconds:.3} s at {:.0} Hz", path.display(), recording.ticks.len(), recording.rate);
+    if let Some(model) = &recording.model {
+        println!("  {:<34} {model}", "model");
+    }
     println!("  {:<34} {}", "touches", figures.touches);
     println!("  {:<34} {}", "largest step at contact", milli(figures.steps.contact));
     println!("  {:<34} {}", "largest step at release", milli(figures.steps.release));

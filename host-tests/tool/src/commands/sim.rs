@@ -65,12 +65,12 @@ pub fn run_on_host(options: &SceneOptions, scene: &Scene) -> anyhow::Result<Trac
     Ok(trace)
 }
 
-/// One row a tick; SI units, the probe in the model's own frame; last the device's name.
+/// One row a tick; SI units, the probe in the model's own frame; last the names of device and model.
 fn write_csv(trace: &Trace, scene: &Scene, path: &Path) -> anyhow::Result<()> {
     let mut writer = csv::Writer::from_path(path)?;
     writer.write_record([
         "time", "count_a", "count_b", "count_c", "duty_a", "duty_b", "duty_c", "phase", "fault", "mode", "contact",
-        "u", "v", "probe_x", "probe_y", "probe_z", "gap", "force_x", "force_y", "force_z", "device",
+        "u", "v", "probe_x", "probe_y", "probe_z", "gap", "force_x", "force_y", "force_z", "device", "model",
     ])?;
     for sample in &trace.samples {
         let report = &sample.report;
@@ -82,7 +82,7 @@ fn write_csv(trace: &Trace, scene: &Scene, path: &Path) -> anyhow::Result<()> {
         row.extend([0, 1, 2].map(|axis| placed(report.probe[axis], scene.centre[axis])));
         row.push(report.gap.to_string());
         row.extend(report.force.map(|component| component.to_string()));
-        row.push(scene.device.name.to_owned());
+        row.extend([scene.device.name, scene.model_name()].map(str::to_owned));
         writer.write_record(row)?;
     }
     writer.flush()?;

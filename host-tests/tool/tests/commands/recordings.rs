@@ -60,6 +60,23 @@ fn a_recording_of_another_device_is_refused() -> Result<(), Box<dyn Error>> {
     let message = String::from_utf8(refused.stderr)?;
     assert_eq!(refused.status.code(), Some(2), "{message}");
     assert!(message.contains("recorded with falcon, not with polhem-v2"), "{message}");
-    assert!(feel("falcon")?.status.success());
+    let taken = feel("falcon")?;
+    assert!(taken.status.success() && String::from_utf8(taken.stdout)?.contains("capped_box"));
+
+    // Spoiled: a row of another device, of another model, and of none.
+    let text = std::fs::read_to_string(&csv)?;
+    let last = text.trim_end().rfind('\n').expect("rows") + 1;
+    let (before, row) = text.split_at(last);
+    for (from, to, message) in [
+        ("falcon", "polhem-v2", "is of \"polhem-v2\", the rows before it of \"falcon\"; record one device"),
+        ("capped_box", "sphere", "is of \"sphere.toml\", the rows before it of \"capped_box.toml\"; record one device"),
+        ("falcon", "", "is of \"\", the rows before it of \"falcon\"; record one device"),
+    ] {
+        assert!(row.contains(from), "{row}");
+        std::fs::write(&csv, format!("{before}{}", row.replace(from, to)))?;
+        let refused = feel("falcon")?;
+        let said = String::from_utf8(refused.stderr)?;
+        assert!(refused.status.code() == Some(2) && said.contains(message), "{to}: {said}");
+    }
     Ok(())
 }
