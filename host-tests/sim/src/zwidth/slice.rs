@@ -36,8 +36,13 @@ impl Slice {
     /// If the device cannot be at the middle of its own workspace.
     pub fn of(device: &ShippedDevice) -> Self {
         let mut direction = [0.0; 3];
-        direction[device.plant.mechanism(0.0).joints() - 1] = 1.0;
+        direction[Self::axis(device)] = 1.0;
         Self::along(device, [0.0; 3], direction).expect("the middle of the workspace is within reach")
+    }
+
+    /// The index of the axis of [`Self::of`].
+    pub fn axis(device: &ShippedDevice) -> usize {
+        device.plant.mechanism(0.0).joints() - 1
     }
 
     /// The same at a position, m, along a unit vector; `None` out of reach, or where the device fades its force out.

@@ -14,7 +14,8 @@ const DELAY: f64 = 1.0;
 /// If the progress bar cannot be drawn.
 pub fn print(devices: &[&ShippedDevice], rates: &[f64], like: Loop, soft: Option<&[SoftWall]>) -> anyhow::Result<()> {
     println!(
-        "maximum stiffness at any damping, N/m, behind {DELAY} period: simulated (passive, without damping); any: even full force at half a count"
+        "maximum stiffness at any damping, N/m, along z at the middle of the workspace (two joints: y, one: x; `--device NAME` \
+         adds the weakest direction), behind {DELAY} period: simulated (passive, without damping); any: even full force at half a count"
     );
     print!("{:<20}{:>8}{:>9}{:>8}{:>6}", "device", "kg", "N·s/m", "N", "µm");
     rates.iter().for_each(|rate| print!("{:>18}", format!("{} kHz", rate / 1_000.0)));
