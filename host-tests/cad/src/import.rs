@@ -9,7 +9,7 @@ use crate::part::{Face, Part, Sweep, Use};
 use crate::patches::{self, Made};
 use crate::spheres::Hollow;
 use crate::wires::{FINEST, Fine, outlined};
-use crate::{check, emit, heal, picture, pinch, read, report, reread, sew, spheres, split, turn};
+use crate::{check, emit, heal, pinch, read, report, reread, sew, spheres, split, turn};
 use glam::DVec3;
 use std::f64::consts::FRAC_PI_4;
 use std::path::Path;
@@ -37,13 +37,11 @@ pub struct Options {
     pub tolerance: f64,
     /// Only the solids of this name.
     pub solid: Option<String>,
-    /// Whether a picture is wanted.
-    pub picture: bool,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { tolerance: 0.01, solid: None, picture: false }
+        Self { tolerance: 0.01, solid: None }
     }
 }
 
@@ -67,8 +65,6 @@ pub struct Imported {
     pub patches: Vec<Patch>,
     /// The results, for the terminal.
     pub report: Vec<String>,
-    /// The picture, if it was asked for.
-    pub picture: Option<String>,
     /// The volume inside the patches, mm³, which means nothing where they are open, and their area, mm².
     pub volume_and_area: [f64; 2],
 }
@@ -386,11 +382,10 @@ fn divided_within(
     }
     let report = report::lines(&mesh, &made, &measured, options.tolerance);
     let model = emit::toml(part, &made, &report);
-    let picture = options.picture.then(|| picture::svg(part, &made, &measured, options.tolerance));
     let patch = |(name, made): (String, Made)| Patch { name, surface: made.bezier, flip: part.faces[made.face].flip };
     let patches = emit::names(part, &made).into_iter().zip(made).map(patch).collect();
     let volume_and_area = [measured.volume[0], measured.area[0]];
-    Ok(Divided { imported: Imported { model, patches, report, picture, volume_and_area }, busiest })
+    Ok(Divided { imported: Imported { model, patches, report, volume_and_area }, busiest })
 }
 
 /// The patches of a part. Where quads had to be halved for them, which goes on through all quads on the way, lines that

@@ -27,7 +27,6 @@ mod outline;
 mod part;
 mod patches;
 mod path;
-mod picture;
 mod pinch;
 mod project;
 mod proof;

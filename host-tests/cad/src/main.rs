@@ -1,4 +1,4 @@
-//! `palpate-cad PART.step OUT.toml TOLERANCE_MM [--solid NAME] [--picture FILE.svg] [--progress]`: what `cargo
+//! `palpate-cad PART.step OUT.toml TOLERANCE_MM [--solid NAME] [--progress]`: what `cargo
 //! palpate import` runs, which has the help.
 
 use palpate_cad::{Options, import};
@@ -33,7 +33,6 @@ fn run() -> Result<(), String> {
         return Err(format!("a tolerance of {tolerance} mm is not between 0.000001 and 1000 mm"));
     }
     let mut options = Options { tolerance, ..Options::default() };
-    let mut picture = None;
     while let Some(word) = words.next() {
         if word == "--progress" {
             palpate_cad::show_progress();
@@ -42,15 +41,10 @@ fn run() -> Result<(), String> {
         let value = words.next().ok_or_else(|| format!("{word} needs a value"))?;
         match word.as_str() {
             "--solid" => options.solid = Some(value),
-            "--picture" => picture = Some(PathBuf::from(value)),
             _ => return Err(format!("{word} is not known")),
         }
     }
-    options.picture = picture.is_some();
     let imported = import(&part, &options).map_err(|error| error.to_string())?;
-    if let (Some(path), Some(text)) = (&picture, &imported.picture) {
-        write_whole(path, text)?;
-    }
     write_whole(&out, &imported.model)?;
     imported.report.iter().for_each(|line| println!("{line}"));
     Ok(())

@@ -16,8 +16,6 @@ pub struct Measured {
     pub back: (f64, usize),
     /// The largest angle between the normals, degrees; and its face.
     pub normal: (f64, usize),
-    /// Of each patch, the largest distance found on it, millimetres.
-    pub each: Vec<f64>,
     /// Area of the patches and of the part, mm².
     pub area: [f64; 2],
     /// Volume inside the patches and inside the part, mm³, by the divergence theorem; means nothing where the part is
@@ -56,7 +54,6 @@ pub fn measure(mesh: &Mesh<'_>, made: &[Made], tolerance: f64) -> Measured {
         }
         let largest =
             climb(worst, 1.0 / ON_PATCH as f64, &distance, &|at| at.clamp(DVec2::ZERO, DVec2::ONE)).max(made.edges_off);
-        measured.each.push(largest);
         if largest > measured.out.0 {
             measured.out = (largest, face);
         }

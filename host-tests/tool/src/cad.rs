@@ -33,7 +33,7 @@ pub fn model_of(part: &Path) -> anyhow::Result<String> {
     let importer = Importer::build(&Progress::new())?;
     let folder = tempfile::tempdir()?;
     let out = folder.path().join("model.toml");
-    let wishes = Wishes { tolerance: TOLERANCE, solid: None, picture: None };
+    let wishes = Wishes { tolerance: TOLERANCE, solid: None };
     eprint!("{}", importer.import(part, &out, &wishes)?);
     Ok(std::fs::read_to_string(out)?)
 }
@@ -45,8 +45,6 @@ pub struct Wishes {
     pub tolerance: f64,
     /// Only the solids of this name.
     pub solid: Option<String>,
-    /// File of the picture.
-    pub picture: Option<PathBuf>,
 }
 
 impl Importer {
@@ -76,9 +74,6 @@ impl Importer {
         command.arg(part).arg(out).arg(wishes.tolerance.to_string());
         if let Some(solid) = &wishes.solid {
             command.arg("--solid").arg(solid);
-        }
-        if let Some(picture) = &wishes.picture {
-            command.arg("--picture").arg(picture);
         }
         command.arg("--progress").stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = command.spawn().with_context(|| format!("{} does not run", self.path.display()))?;

@@ -4,6 +4,7 @@ use super::check::Loaded;
 use super::output::write_whole;
 use super::{bake, parts, progress, table_report};
 use crate::cad::{Importer, TOLERANCE, Wishes};
+use crate::figures::draw_shape;
 use crate::firmware::Progress;
 use crate::models::ModelFile;
 use anyhow::anyhow;
@@ -39,7 +40,7 @@ pub struct Arguments {
     /// Only the solids of this name
     #[arg(long, value_name = "NAME")]
     solid: Option<String>,
-    /// Picture of patches, seams and, by colour, deviation
+    /// Picture of the patches and their borders
     #[arg(long, value_name = "FILE.svg")]
     picture: Option<PathBuf>,
 }
@@ -94,15 +95,14 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let importer = Importer::build(&Progress::new())?;
     // Nothing is written before all is right.
     let folder = tempfile::tempdir()?;
-    let (model, drawn) = (folder.path().join("model.toml"), folder.path().join("picture.svg"));
-    let picture = arguments.picture.as_ref().map(|_| drawn.clone());
-    let wishes = Wishes { tolerance: arguments.tolerance, solid: arguments.solid.clone(), picture };
+    let model = folder.path().join("model.toml");
+    let wishes = Wishes { tolerance: arguments.tolerance, solid: arguments.solid.clone() };
     let said = importer.import(&arguments.part, &model, &wishes)?;
     let text = fs::read_to_string(&model)?;
     let loaded =
         Loaded::of(ModelFile::imported(&arguments.part, text.clone())).map_err(|fault| one_by_one(fault, &text))?;
     if let Some(picture) = &arguments.picture {
-        write_whole(picture, &fs::read(&drawn)?)?;
+        write_whole(picture, draw_shape(&loaded.model, &loaded.file.label)?.as_bytes())?;
     }
     write_whole(&arguments.out, text.as_bytes())?;
     print!("{said}");

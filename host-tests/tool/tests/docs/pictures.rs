@@ -4,7 +4,7 @@ use crate::pages::{cells, files, palpate, repository, text};
 use std::{env, fs};
 
 /// Not drawn by the tool, or in a lane of its own: the race compiles its peers for minutes (`cargo palpate race`), the
-/// importer its reader; its tests compare its pictures. Clean stiffness takes minutes to be found (`palpate feel
+/// importer its reader (`import host-tests/cad/tests/parts/s09.step --picture`). Clean stiffness takes minutes to be found (`palpate feel
 /// --clean`).
 const OTHERWISE: [&str; 6] =
     ["commission.svg", "tick.svg", "race.svg", "cad-s09.svg", "cad-s12.svg", "clean-phantom.svg"];
