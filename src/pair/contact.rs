@@ -1,8 +1,8 @@
 //! The contacts of a tool with a body: where, in which direction, and how far.
 
-use super::step::Pair;
+use super::step::{Foot, Pair};
 use super::tool::{Tool, unit};
-use super::tracker::ToolWitness;
+use super::tracker::{Part, ToolWitness};
 use crate::body::Body;
 use crate::math::{Vec3, sqrt};
 use crate::track::Placement;
@@ -42,15 +42,35 @@ impl ToolContact {
         self.arm.cross(self.normal)
     }
 
-    /// `None` of a pair that the signs find on the far side of the body, or whose points coincide.
-    fn of(pair: &Pair, body: &Body, tool: &Tool, placement: &Placement) -> Option<Self> {
-        let away = -pair.difference(placement);
-        if pair.a.outward(body).dot(away) <= 0.0 {
+    /// Of a body's point and a core's, in the body's frame, if a translation of `reach_m` and a rotation of `reach_rad` can
+    /// close its gap. `None` of one that the signs find on the far side of the body, or whose points coincide.
+    fn of(a: &Foot, b: Vec3, body: &Body, within: &Within) -> Option<Self> {
+        let arm = within.placement.direction_to_a(b);
+        let away = arm + within.placement.origin - a.point();
+        let reach = within.radius + within.reach_m + within.reach_rad * sqrt(arm.length_squared());
+        let squared = away.length_squared();
+        if squared > reach * reach || a.outward(body).dot(away) <= 0.0 {
             return None;
         }
-        let gap = sqrt(away.length_squared()) - tool.radius();
-        Some(Self { normal: unit(away), arm: placement.direction_to_a(pair.b.point()), gap })
+        Some(Self { normal: unit(away), arm, gap: sqrt(squared) - within.radius })
     }
+}
+
+/// The pose of a tool, and how far its contacts are closed in a tick.
+struct Within<'a> {
+    placement: &'a Placement,
+    radius: f32,
+    reach_m: f32,
+    reach_rad: f32,
+}
+
+const fn feet(pair: &Pair) -> (&Foot, Vec3) {
+    (&pair.a, pair.b.point())
+}
+
+/// A part whose gap is not known to be out of reach.
+fn near(part: &Option<Part>) -> Option<(&Foot, Vec3)> {
+    part.as_ref().filter(|part| !part.is_at_rest()).map(|part| feet(&part.pair))
 }
 
 impl Manifold {
@@ -89,24 +109,20 @@ impl Manifold {
 impl ToolWitness {
     /// The contacts whose gap a translation of `reach_m` and a rotation of `reach_rad` can close.
     pub fn manifold(&self, body: &Body, tool: &Tool, placement: &Placement, reach_m: f32, reach_rad: f32) -> Manifold {
+        let within = Within { placement, radius: tool.radius(), reach_m, reach_rad };
         let mut manifold = Manifold::NONE;
-        let within = |pair: &Pair| {
-            let contact = ToolContact::of(pair, body, tool, placement)?;
-            let arm = sqrt(contact.arm.length_squared());
-            (contact.gap <= reach_m + reach_rad * arm).then_some(contact)
-        };
-        let mut enter = |pairs: &mut dyn Iterator<Item = Pair>| {
+        let mut enter = |feet: &mut dyn Iterator<Item = (&Foot, Vec3)>| {
             let first = usize::from(manifold.count);
-            for contact in pairs.filter_map(|pair| within(&pair)) {
+            for contact in feet.filter_map(|(a, b)| ToolContact::of(a, b, body, &within)) {
                 manifold.enter(contact, first, body.size());
             }
         };
-        enter(&mut core::iter::once(*self.pair()));
-        enter(&mut self.corners.iter().flatten().map(|part| part.pair));
-        enter(&mut self.at_vertices(&tool.region(), placement));
-        enter(&mut self.borders.iter().flatten().map(|part| part.pair));
-        enter(&mut self.edges.iter().flatten().map(|part| part.pair));
-        enter(&mut self.rivals.iter().flatten().copied());
+        enter(&mut core::iter::once(feet(self.pair())));
+        enter(&mut self.corners.iter().filter_map(near));
+        enter(&mut self.vertices(&tool.region(), placement));
+        enter(&mut self.borders.iter().filter_map(near));
+        enter(&mut self.edges.iter().filter_map(near));
+        enter(&mut self.rivals.iter().flatten().map(feet));
         manifold
     }
 }

@@ -114,7 +114,7 @@ impl Pair {
             }
         }
         let squared = joint.difference.length_squared();
-        let Some((step, slope)) = joint.plan(self, body, region) else { return Moved::AtRest };
+        let Some((step, slope)) = joint.plan_moving(self, body, region) else { return Moved::AtRest };
         let [u, v, r, s, _] = step;
         let moved = |at: [f32; 2], w: [f32; 2]| [at[0] + w[0], at[1] + w[1]];
         let a = Foot::on(body, self.a.face, moved(self.a.parameters, [u, v]));
@@ -191,20 +191,42 @@ impl Joint {
         joint
     }
 
-    /// The step with the largest promise, and its slope; `None` if no step promises anything.
-    fn plan(&self, pair: &Pair, body: &Body, region: &Region) -> Option<(Step, f32)> {
-        let gradient: Step = self.columns.map(|column| column.dot(self.difference));
-        let metric: [Step; SIZE] = core::array::from_fn(|i| {
-            core::array::from_fn(|k| if (i < 2) == (k < 2) { self.columns[i].dot(self.columns[k]) } else { 0.0 })
+    /// The plan in those variables that can move: a corner of a core has none of its own, a segment one.
+    fn plan_moving(&self, pair: &Pair, body: &Body, region: &Region) -> Option<(Step, f32)> {
+        if let Region::Surface(_) = region {
+            return self.plan([0, 1, 2, 3], pair, body, region);
+        }
+        let [x, y, z] = [2, 3, 4].map(|i| self.upper[i] > self.lower[i]);
+        match (x, y, z) {
+            (false, false, false) => self.plan([0, 1], pair, body, region),
+            (true, false, false) => self.plan([0, 1, 2], pair, body, region),
+            (false, true, false) => self.plan([0, 1, 3], pair, body, region),
+            (false, false, true) => self.plan([0, 1, 4], pair, body, region),
+            _ => self.plan([0, 1, 2, 3, 4], pair, body, region),
+        }
+    }
+
+    /// The step with the largest promise, and its slope; `None` if no step promises anything. In the variables `of`.
+    fn plan<const N: usize>(&self, of: [usize; N], pair: &Pair, body: &Body, region: &Region) -> Option<(Step, f32)> {
+        let columns = of.map(|i| self.columns[i]);
+        let (lower, upper) = (of.map(|i| self.lower[i]), of.map(|i| self.upper[i]));
+        let gradient = columns.map(|column| column.dot(self.difference));
+        let metric: [[f32; N]; N] = core::array::from_fn(|i| {
+            core::array::from_fn(|k| if (i < 2) == (k < 2) { columns[i].dot(columns[k]) } else { 0.0 })
         });
-        let model = |hessian| Quadratic { gradient, hessian, lower: self.lower, upper: self.upper };
+        let minimiser = |hessian| {
+            let within = Quadratic { gradient, hessian, lower, upper }.minimiser()?;
+            let slope = -gradient.iter().zip(&within).fold(0.0, |sum, (g, d)| sum + g * d);
+            let mut step = [0.0; SIZE];
+            of.into_iter().zip(within).for_each(|(i, moved)| step[i] = moved);
+            Some((step, slope))
+        };
         let mut best: Option<(Step, f32, f32)> = None;
         if pair.halvings == 0 {
-            let newton = self.newton();
+            let newton = self.newton(&columns);
             for shift in SHIFTS {
                 let shifted = core::array::from_fn(|i| core::array::from_fn(|k| newton[i][k] + shift * metric[i][k]));
-                let Some(step) = model(shifted).minimiser() else { continue };
-                let slope = -dot(&gradient, &step);
+                let Some((step, slope)) = minimiser(shifted) else { continue };
                 let share = self.share(&step, slope, pair, body, region);
                 if share >= 1.0 && slope > 0.0 {
                     return Some((step, slope));
@@ -213,8 +235,7 @@ impl Joint {
             }
         }
         // Always positive: the tangents span a plane, or one of them is left out.
-        let step = model(metric).minimiser().unwrap_or([0.0; SIZE]);
-        let slope = -dot(&gradient, &step);
+        let (step, slope) = minimiser(metric).unwrap_or(([0.0; SIZE], 0.0));
         let mut share = self.share(&step, slope, pair, body, region);
         if share <= 0.0 && best.is_none() {
             // Without bounds (next to a pole) the evaluation decides.
@@ -225,9 +246,9 @@ impl Joint {
     }
 
     /// `H`: all products of the tangents, and the second derivatives.
-    fn newton(&self) -> [Step; SIZE] {
-        let mut hessian = self.columns.map(|column| self.columns.map(|other| column.dot(other)));
-        for (block, second) in self.second.iter().enumerate() {
+    fn newton<const N: usize>(&self, columns: &[Vec3; N]) -> [[f32; N]; N] {
+        let mut hessian = columns.map(|column| columns.map(|other| column.dot(other)));
+        for (block, second) in self.second.iter().enumerate().take(N / 2) {
             let ([uu, uv, vv], i) = (second.along(self.difference), 2 * block);
             hessian[i][i] += uu;
             hessian[i][i + 1] += uv;
@@ -286,8 +307,4 @@ fn consider(best: &mut Option<(Step, f32, f32)>, step: Step, slope: f32, share: 
     if is_best && share > 0.0 && slope.is_finite() {
         *best = Some((step, slope, share));
     }
-}
-
-fn dot(a: &Step, b: &Step) -> f32 {
-    (0..SIZE).fold(0.0, |sum, i| sum + a[i] * b[i])
 }

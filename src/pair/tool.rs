@@ -134,6 +134,8 @@ impl<'a> Tool<'a> {
                     }
                 }
             }
+            // A point is the pair itself.
+            Region::Solid { half: Vec3::ZERO, .. } => {}
             Region::Solid { middle, half } => {
                 for signs in 0..8_u8 {
                     let is_upper = [0, 1, 2].map(|axis| signs >> axis & 1 == 1);

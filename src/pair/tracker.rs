@@ -224,13 +224,12 @@ impl ToolWitness {
         core::iter::once(&self.pair).chain(parts).chain(self.rivals.iter().flatten())
     }
 
-    /// The points of a core that is no body opposite the corners of the pair's face, of which each is a point of the
-    /// body.
-    pub(super) fn at_vertices(&self, region: &Region, placement: &Placement) -> impl Iterator<Item = Pair> + use<> {
-        let (vertices, face) = self.vertices;
-        let count = if face == u16::MAX { 0 } else { vertices.len() };
+    /// The corners of the pair's face, each with the opposite point of a core that is no body.
+    pub(super) fn vertices(&self, region: &Region, placement: &Placement) -> impl Iterator<Item = (&Foot, Vec3)> {
+        let (vertices, face) = &self.vertices;
+        let count = if *face == u16::MAX { 0 } else { vertices.len() };
         let (region, placement) = (region.solid(), *placement);
-        vertices.into_iter().take(count).map(move |a| Pair::facing(a, &region, &placement))
+        vertices.iter().take(count).map(move |a| (a, region.nearest(placement.point_to_b(a.point())).0))
     }
 
     /// Whether the core's witness point or its axes have moved far since the last tick.
@@ -247,6 +246,11 @@ impl ToolWitness {
 impl Part {
     pub const fn new(pair: Pair, middle: Vec3, half: Vec3) -> Self {
         Self { pair, middle, half, held: [false; 2], rests_for: 0.0 }
+    }
+
+    /// Whether it can be neither the nearest nor in contact, and its pair was left where it was.
+    pub fn is_at_rest(&self) -> bool {
+        self.rests_for > 0.0
     }
 }
 
@@ -373,7 +377,9 @@ impl Scene<'_> {
     /// Makes the nearest of pair, corners, edges, vertices and rivals the pair; drops rivals that are far, or one with another.
     fn exchange(&mut self, state: &mut ToolWitness) {
         let face = state.pair.a.face;
-        if let (true, Region::Solid { middle, half }) = (state.vertices.1 != face, self.region) {
+        // Of a convex body and a point the pair is all.
+        let is_point = matches!(self.region, Region::Solid { half: Vec3::ZERO, .. }) && self.body.is_convex();
+        if let (false, true, Region::Solid { middle, half }) = (is_point, state.vertices.1 != face, self.region) {
             self.evaluations += 8;
             let ends = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
             state.vertices = (ends.map(|end| Foot::on(self.body, face, end)), face);
@@ -385,18 +391,21 @@ impl Scene<'_> {
             }
         }
         let mut least = self.distance(&state.pair) - NEARER * self.body.size();
-        for part in state.corners.iter().chain(&state.edges).chain(&state.borders).flatten() {
+        let parts = state.corners.iter().chain(&state.edges).chain(&state.borders).flatten();
+        for part in parts.filter(|part| !part.is_at_rest()) {
             let distance = self.distance(&part.pair);
             if distance < least {
                 (least, state.pair) = (distance, part.pair);
             }
         }
-        for pair in state.at_vertices(&self.region, self.placement) {
-            let distance = self.distance(&pair);
+        let mut nearest = None;
+        for (a, b) in state.vertices(&self.region, self.placement) {
+            let distance = sqrt((a.point() - self.placement.point_to_a(b)).length_squared());
             if distance < least {
-                (least, state.pair) = (distance, pair);
+                (least, nearest) = (distance, Some(Pair { a: *a, b: Foot::in_solid(b), halvings: 0 }));
             }
         }
+        state.pair = nearest.unwrap_or(state.pair);
         for rival in state.rivals.iter_mut().flatten() {
             let distance = self.distance(rival);
             if distance < least {
