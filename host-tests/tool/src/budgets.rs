@@ -136,13 +136,13 @@ pub fn measure(board: Board, progress: &Progress) -> Result<Figures, BudgetError
     Ok(all)
 }
 
-/// Counts queries without history on the body of a file.
+/// Counts on the body of a file: queries without history (`cold`), or ticks of tools with a shape (`tool`).
 ///
 /// # Errors
 /// If the program does not run to its end, or says something else than figures.
-pub fn cold(board: Board, file: &Path, progress: &Progress) -> Result<Figures, BudgetError> {
+pub fn on_file(board: Board, file: &Path, feature: &str, progress: &Progress) -> Result<Figures, BudgetError> {
     let choice = Choice { board, cold: Some(file.to_path_buf()), ..Choice::default() };
-    figures(&Program::prepare_with(&choice, "budget", &["cold"], progress)?.run(Pace::Counting)?)
+    figures(&Program::prepare_with(&choice, "budget", &[feature], progress)?.run(Pace::Counting)?)
 }
 
 /// The lines `"name" = count`.

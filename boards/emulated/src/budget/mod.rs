@@ -18,6 +18,8 @@ mod servo;
 mod step;
 mod tables;
 mod tally;
+#[cfg(feature = "tool")]
+mod tool;
 
 pub use tally::Tally;
 
@@ -71,6 +73,14 @@ pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
     if cfg!(any(feature = "soft", feature = "around", feature = "protected", feature = "smooth")) {
         return servo::run(counter);
     }
+    #[cfg(feature = "tool")]
+    return tool::run(counter);
+    #[cfg(not(feature = "tool"))]
+    run_rest(counter)
+}
+
+#[cfg(not(feature = "tool"))]
+fn run_rest(counter: &mut InstructionCounter) -> Result<(), &'static str> {
     if cfg!(feature = "cold") {
         return cold::run(counter);
     }

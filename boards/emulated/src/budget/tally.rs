@@ -5,8 +5,9 @@ use semihosting::println;
 /// Counts above this are all in the last bin.
 const BINS: usize = 4_096;
 
-/// Instructions of a bin: ticks of a soft body, of many bodies and of a core without floats are longer than there are bins.
-const WIDTH: u32 = if cfg!(any(board = "m0", board = "riscv-imc")) {
+/// Instructions of a bin: ticks of a soft body, of many bodies, of a tool with a shape and of a core without floats are
+/// longer than there are bins.
+const WIDTH: u32 = if cfg!(any(board = "m0", board = "riscv-imc", feature = "tool")) {
     32
 } else if cfg!(any(feature = "soft", all(feature = "scene", target_arch = "riscv32"))) {
     4

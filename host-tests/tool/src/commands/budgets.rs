@@ -1,7 +1,7 @@
 //! `palpate budgets`: what the hot path costs on the emulated board, beside what it may cost.
 
 use super::bake;
-use crate::budgets::{Budget, Figures, Verdict, cold, measure};
+use crate::budgets::{Budget, Figures, Verdict, measure, on_file};
 use crate::firmware::{Board, Progress};
 use clap::Args;
 use std::fmt::Write as _;
@@ -23,8 +23,11 @@ pub struct Arguments {
     /// Instead: queries without history on a model's body, in front of its faces and anywhere around
     #[arg(long, value_name = "MODEL", conflicts_with = "record")]
     cold: Option<PathBuf>,
+    /// Instead: the servo tick of a ball, a capsule and a box, pressed into each face of a model's body
+    #[arg(long, value_name = "MODEL", conflicts_with_all = ["record", "cold"])]
+    tool: Option<PathBuf>,
     /// Instead: the committed budget of the servo tick on every core
-    #[arg(long, conflicts_with_all = ["record", "cold"])]
+    #[arg(long, conflicts_with_all = ["record", "cold", "tool"])]
     cores: bool,
 }
 
@@ -37,11 +40,13 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         print!("{}", cores()?);
         return Ok(ExitCode::SUCCESS);
     }
-    if let Some(model) = &arguments.cold {
+    if let Some((model, feature)) =
+        arguments.cold.as_ref().map(|model| (model, "cold")).or(arguments.tool.as_ref().map(|model| (model, "tool")))
+    {
         let folder = tempfile::tempdir()?;
         let file = folder.path().join("cold.palp");
         fs::write(&file, bake::file_of(model)?)?;
-        let found = cold(arguments.board, &file, &Progress::new())?;
+        let found = on_file(arguments.board, &file, feature, &Progress::new())?;
         found.0.iter().for_each(|(name, count)| println!("{name:<45}  {count:>8}"));
         return Ok(ExitCode::SUCCESS);
     }
