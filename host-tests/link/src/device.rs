@@ -15,7 +15,7 @@ const GREETS: Duration = Duration::from_millis(1_500);
 const GREETS_EVERY: Duration = Duration::from_millis(150);
 /// How long one look at the line waits at most.
 const LOOK: Duration = Duration::from_millis(5);
-/// Maximum bytes read per call: a line that delivers faster than it is read must not block the caller.
+/// Maximum bytes read per call, and views kept for a log: a line that delivers faster than it is read must not block the caller.
 const MOST: usize = 1 << 16;
 
 /// A device that runs by itself, at the other end of a line.
@@ -35,6 +35,8 @@ pub struct Device<L = Port> {
     pub(crate) answer: Option<Answer>,
     pub(crate) view: Option<(View, Instant)>,
     pub(crate) views: u64,
+    /// All views since the last call of [`Self::take_views`], once that was called.
+    pub(crate) all_views: Option<Vec<View>>,
     pub(crate) dial: Option<(Dial, Instant)>,
     pub(crate) modes: Option<(Modes, Instant)>,
     pub(crate) dials: u64,
@@ -80,6 +82,7 @@ impl<L: Line> Device<L> {
             answer: None,
             view: None,
             views: 0,
+            all_views: None,
             dial: None,
             modes: None,
             dials: 0,
@@ -242,6 +245,9 @@ impl<L: Line> Device<L> {
             DeviceMessage::View(view) => {
                 self.view = Some((view, self.line.now()));
                 self.views += 1;
+                if let Some(all) = self.all_views.as_mut().filter(|all| all.len() < MOST) {
+                    all.push(view);
+                }
                 self.reading = None;
             }
             DeviceMessage::Record(record) => {

@@ -31,6 +31,12 @@ impl<L: Line> Device<L> {
         }
     }
 
+    /// All views that came since the last call, in their order; the first call starts to keep them. Call it at least
+    /// every 16 s.
+    pub fn take_views(&mut self) -> Vec<View> {
+        self.all_views.replace(Vec::new()).unwrap_or_default()
+    }
+
     /// The newest that has come; waits only where there is none, or none of late.
     fn newest(&mut self) -> Result<View, Error> {
         self.drain()?;

@@ -85,6 +85,9 @@ pub struct Simulated {
     is_paced: bool,
     /// Ticks for which the hand has confirmed what the device asks.
     confirms: Option<u32>,
+    bytes_per_tick: u32,
+    /// The loop's own record, once it is kept: tick, gap, force.
+    own_record: Option<Vec<(u32, f32, Vec3)>>,
 }
 
 /// Options of the simulated device.
@@ -98,14 +101,22 @@ pub struct Kind {
     pub reset: ResetReason,
     /// Whether it has flash to store a body: 64 KB.
     pub keeps_bodies: bool,
+    /// Bytes that its line carries in a tick, either way.
+    pub bytes_per_tick: u32,
 }
 
 type InFlash = PretendedFlash<16_384>;
 
 impl Default for Kind {
-    /// With memory of both kinds, half a second, just switched on.
+    /// With memory of both kinds, half a second, just switched on, at 500,000 baud.
     fn default() -> Self {
-        Self { takes_bodies: true, link_timeout: 0.5, reset: ResetReason::PowerOn, keeps_bodies: true }
+        Self {
+            takes_bodies: true,
+            link_timeout: 0.5,
+            reset: ResetReason::PowerOn,
+            keeps_bodies: true,
+            bytes_per_tick: BYTES,
+        }
     }
 }
 
@@ -189,7 +200,17 @@ impl Simulated {
         if kind.keeps_bodies {
             board.idle = board.idle.keeping(keeping);
         }
-        Ok(Self { board, hand, flash, ticks: 0, began: Instant::now(), is_paced: false, confirms: None })
+        Ok(Self {
+            board,
+            hand,
+            flash,
+            ticks: 0,
+            began: Instant::now(),
+            is_paced: false,
+            confirms: None,
+            bytes_per_tick: kind.bytes_per_tick,
+            own_record: None,
+        })
     }
 
     /// Limits the simulation to real time.
@@ -210,14 +231,23 @@ impl Simulated {
         }
     }
 
+    /// Tick, gap and force (m, N) of each tick since the last call; the first call starts to keep them.
+    pub fn own_record(&mut self) -> Vec<(u32, f32, Vec3)> {
+        self.own_record.replace(Vec::new()).unwrap_or_default()
+    }
+
     /// The motors' duties.
     pub fn duties(&mut self) -> [i16; 3] {
         self.board.bench.board().duties.unwrap_or_default().map(|duty| duty.0)
     }
 
     fn tick(&mut self) {
-        self.board.tick(BYTES);
+        self.board.tick(self.bytes_per_tick);
         self.ticks += 1;
+        if let Some(record) = &mut self.own_record {
+            let state = self.board.bench.state();
+            record.push((state.ticks().wrapping_sub(1), state.gap(), state.force()));
+        }
         // The hand confirms what the device asks it to: the button for 0.6 s, unless it holds it already.
         if self.board.bench.asks_to_confirm() {
             self.confirms = self.confirms.map_or(Some(0), |ticks| Some(ticks + 1));

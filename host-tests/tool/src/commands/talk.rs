@@ -12,7 +12,7 @@ use palpate_sim::knob::{KnobFlash, SharedKnob, SimulatedKnob};
 use palpate_sim::plant::DialSettings;
 use palpate_sim::simulated::{self, Simulated};
 use std::io::{IsTerminal as _, Write, stdin, stdout};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::mpsc::{Receiver, TryRecvError, sync_channel};
 use std::time::Duration;
@@ -36,6 +36,12 @@ pub struct Arguments {
     /// The boards' loop compiled for the host, with the same arm
     #[arg(long, group = "where")]
     host: bool,
+    /// Log (CSV): tick, position, velocity, force, gap, feature, phase and fault
+    #[arg(long, value_name = "OUT.csv")]
+    log: Option<PathBuf>,
+    /// Rows of --log a second, Hz, up to the servo rate; each needs 63 bytes of the line, 1 kHz USB
+    #[arg(long, default_value_t = 1_000.0, requires = "log", value_name = "HZ")]
+    log_rate: f64,
     /// The emulated or simulated device
     #[arg(long, value_enum, default_value = "arm")]
     device: Kind,
@@ -79,10 +85,16 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         },
         (None, None, false) => bail!("either --port, --emulator or --host"),
     };
-    talk(line, button, knob.as_ref())
+    let log = arguments.log.as_deref().map(|path| (path, arguments.log_rate));
+    talk(line, button, knob.as_ref(), log)
 }
 
-fn talk(line: Box<dyn Line>, button: Option<Button>, knob: Option<&SharedKnob>) -> anyhow::Result<ExitCode> {
+fn talk(
+    line: Box<dyn Line>,
+    button: Option<Button>,
+    knob: Option<&SharedKnob>,
+    log: Option<(&Path, f64)>,
+) -> anyhow::Result<ExitCode> {
     let mut device = Device::over(line)?;
     if let Some(button) = &button {
         press(&mut device, button)?;
@@ -96,28 +108,37 @@ fn talk(line: Box<dyn Line>, button: Option<Button>, knob: Option<&SharedKnob>) 
         }
     }
     let mut console = Console::new(device, &file_of).with_button(button);
-    let (lines, by_hand) = (lines(), stdin().is_terminal());
+    if let Some((path, rate)) = log {
+        console = console.with_log(path, rate)?;
+    }
     let mut output = stdout().lock();
-    let mut count = 0;
     writeln!(output, "{}", console.who())?;
+    let ended = converse(&mut console, &mut output);
+    console.end_log(&mut output)?;
+    ended.map(|()| ExitCode::SUCCESS)
+}
+
+fn converse(console: &mut Console<'_, Box<dyn Line>>, output: &mut dyn Write) -> anyhow::Result<()> {
+    let (lines, by_hand) = (lines(), stdin().is_terminal());
+    let mut count = 0;
     loop {
         if by_hand || !console.is_busy() {
             match lines.try_recv() {
                 Ok(line) => {
                     let line = line?;
                     count += 1;
-                    match console.obey(&line, &mut output) {
+                    match console.obey(&line, output) {
                         Ok(Step::GoesOn) => {}
-                        Ok(Step::Ends) => return Ok(ExitCode::SUCCESS),
+                        Ok(Step::Ends) => return Ok(()),
                         Err(error) if by_hand && is_passing(&error) => writeln!(output, "{error:#}")?,
                         Err(error) => bail!("{error:#}: line {count}, \"{line}\""),
                     }
                 }
-                Err(TryRecvError::Disconnected) => return Ok(ExitCode::SUCCESS),
+                Err(TryRecvError::Disconnected) => return Ok(()),
                 Err(TryRecvError::Empty) => {}
             }
         }
-        console.tend(&mut output)?;
+        console.tend(output)?;
         output.flush()?;
     }
 }

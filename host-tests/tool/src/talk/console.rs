@@ -1,5 +1,6 @@
 //! A device, and a user who sends it commands a line at a time.
 
+use super::Log;
 use super::asked::{Asked, FORMS};
 use crate::firmware::{Board, Emulator, Link as _, Program, Progress};
 use palpate::servo::{Fault, Phase};
@@ -63,6 +64,7 @@ pub struct Console<'a, L> {
     /// The enable button of a simulated device.
     button: Option<Button>,
     waits: Option<Instant>,
+    log: Option<Log>,
 }
 
 impl<'a, L: Line> Console<'a, L> {
@@ -77,6 +79,7 @@ impl<'a, L: Line> Console<'a, L> {
             turns: None,
             button: None,
             waits: None,
+            log: None,
         }
     }
 
@@ -84,6 +87,28 @@ impl<'a, L: Line> Console<'a, L> {
     #[must_use]
     pub fn with_button(self, button: Option<Button>) -> Self {
         Self { button, ..self }
+    }
+
+    /// With a log of this rate, Hz, from now on.
+    ///
+    /// # Errors
+    /// A rate above the servo's, or a file that cannot be written.
+    pub fn with_log(mut self, path: &Path, rate: f64) -> anyhow::Result<Self> {
+        self.log = Some(Log::create(path, self.device.hello().rate.into(), rate)?);
+        self.device.take_views();
+        Ok(self)
+    }
+
+    /// Ends the log, if there is one, and prints its number of rows.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn end_log(&mut self, output: &mut dyn Write) -> anyhow::Result<()> {
+        if let Some(mut log) = self.log.take() {
+            log.take(&self.device.take_views())?;
+            writeln!(output, "{}", log.end()?)?;
+        }
+        Ok(())
     }
 
     /// Whether the next line of a file should wait.
@@ -101,6 +126,9 @@ impl<'a, L: Line> Console<'a, L> {
             Err(Error::BeganAnew { .. }) => return self.begin_anew(output),
             Err(error) => return Err(error.into()),
         };
+        if let Some(log) = &mut self.log {
+            log.take(&self.device.take_views())?;
+        }
         let now = self.device.now();
         self.waits = self.waits.filter(|until| now < *until);
         if let Some((force, until, last)) = self.pushes {
@@ -394,6 +422,8 @@ pub struct Emulated {
     world: World,
     tick: u32,
     began: Instant,
+    /// Where the arm's probe is at each tick, m in the scene's frame, once that is kept.
+    probes: Option<Vec<[f64; 3]>>,
     /// Its image, which the emulator may still be reading.
     _program: Program,
 }
@@ -422,7 +452,13 @@ impl Emulated {
         let program = Program::prepare(board, program, features, &Progress::new())?;
         let (pins, port) = program.start_with_telemetry()?;
         port.set_read_timeout(Some(WAIT))?;
-        Ok(Self { pins, port, world, tick: 0, began: Instant::now(), _program: program })
+        Ok(Self { pins, port, world, tick: 0, began: Instant::now(), probes: None, _program: program })
+    }
+
+    /// The tick of the board that comes next, and where the simulated arm's probe was at each tick since the last call,
+    /// m in the scene's frame; the first call starts to keep them.
+    pub fn take_probes(&mut self) -> (u32, Vec<[f64; 3]>) {
+        (self.tick, self.probes.replace(Vec::new()).unwrap_or_default())
     }
 
     /// The user's finger on its enable button.
@@ -437,6 +473,10 @@ impl Emulated {
     }
 
     fn tick(&mut self) -> io::Result<()> {
+        if let (Some(probes), World::Arm(plant, _)) = (&mut self.probes, &self.world) {
+            let position = plant.position();
+            probes.push(core::array::from_fn(|axis| position[axis] + MIDDLE[axis]));
+        }
         let (counts, enable) = match &self.world {
             World::Arm(plant, hand) => (plant.counts(), hand.is_enabling()),
             World::Knob(knob) => {

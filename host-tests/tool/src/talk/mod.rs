@@ -7,7 +7,9 @@
 
 mod asked;
 mod console;
+mod log;
 
 pub use asked::{Asked, Misunderstood};
 pub use console::{Button, Console, Press, Step};
 pub use console::{Emulated, at_knob};
+pub use log::Log;
