@@ -130,7 +130,7 @@ export class Basin {
     context.clearRect(0, 0, width, height);
     const longest = Math.max(...falls.map((fall) => Math.min(fall.length, 40)), 8);
     // The numbers stand beside the curves and below them.
-    const [left, right, top, bottom] = [16, width - 150, 20, height - 56];
+    const [left, right, top, bottom] = [16, width - 165, 20, height - 56];
     const across = (step) => left + ((right - left) * step) / (longest - 1),
       high = (value) => top + (bottom - top) * (1 - (value - least) / Math.max(most - least, 1e-9));
     falls.forEach((fall, index) => {

@@ -20,7 +20,9 @@ export class Player {
     by("play").textContent = "pause";
     by("time").max = recording.views.length - 1;
     by("timeline").hidden = false;
-    by("live").textContent = `made with ${recording.with}; state hash ${recording.hash}: ${recording.on}’s, bit for bit`;
+    by("device").disabled = true;
+    by("device-about").textContent = `This run was made with ${recording.with}.`;
+    by("live").textContent = `state hash ${recording.hash}: ${recording.on}’s, bit for bit`;
   }
 
   /** Stands at a time, s. */
@@ -32,6 +34,7 @@ export class Player {
   /** Leaves it. */
   close() {
     this.recording = null;
+    by("device").disabled = false;
     by("timeline").hidden = true;
   }
 

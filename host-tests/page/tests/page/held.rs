@@ -118,6 +118,8 @@ fn a_file_of_ones_own_is_held_and_a_bad_one_is_refused_in_the_words_of_the_tool(
     page.ask("palpate.take('sphere')")?;
     let state = page.ask("palpate.state()")?;
     ensure!(state["held"]["name"] == "mine" && state["choices"]["stiffness"] == 500, "{state}");
+    let far = length(&page.ask("palpate.hold([5, 0, 0], 40000)")?["probe"])?;
+    ensure!(far < 0.2, "under the next body its workspace has no end: {far} m");
     ensure!(page.errors().is_empty(), "on the console: {:?}", page.errors());
     Ok(())
 }

@@ -23,6 +23,7 @@ const FILLED: &str = "(() => {
 #[test]
 fn a_reader_sees_a_body_and_a_basin() -> anyhow::Result<()> {
     let page = Page::open()?;
+    page.prefer("dark")?;
     for (name, before) in PICTURES {
         page.ask(before)?;
         // In each frame lights and stylus go an eighth of their way at least: after so many, all but a two-hundredth.

@@ -113,6 +113,7 @@ fn a_scenes_bodies_are_seen_where_they_are_and_its_gap_is_the_hosts() -> anyhow:
     ensure!(touched > 50 && turned > 100 && felt.iter().filter(|felt| **felt).count() > 1, "too little was felt");
     if std::env::var_os("PALPATE_WRITE").is_some() {
         opened(&page, &fs::read(&recording)?)?;
+        page.prefer("dark")?;
         page.ask("palpate.draw(true)")?;
         // Pressed into what turns.
         let pressed = |view: &&Value| view["contact"] == 2 && view["part"] == 1 && view["gap"].as_f64() < Some(-1e-3);
@@ -142,6 +143,8 @@ fn a_recording_of_another_body_device_or_run_is_refused_and_says_which() -> anyh
     let page = Page::held_still()?;
     let state = opened(&page, run.to_string().as_bytes())?;
     ensure!(state["refusal"].is_null() && state["replay"]["with"] == "polhem-v2", "{state}");
+    let about = state["held"]["about"].as_str().unwrap_or_default();
+    ensure!(about.contains("polhem-v2"), "the reader sees another device: {about:?}");
     let counts = run["counts"].as_str().context("no counts")?;
     let moved = format!("{}{}", if counts.starts_with('A') { 'E' } else { 'A' }, &counts[1..]);
     let with = |change: &dyn Fn(&mut Value)| {
