@@ -17,6 +17,7 @@ mod location;
 mod proxy;
 mod quadratic;
 mod step;
+mod surface;
 mod tool;
 mod tracker;
 
@@ -25,5 +26,6 @@ use crate::body::Body;
 pub use contact::{MAX_CONTACTS, Manifold, ToolContact};
 pub use proxy::{Proxy, ProxyError, ToolCoupling};
 pub use step::{Foot, Pair};
+pub use surface::{HeldTool, ToolSurface};
 pub use tool::{Core, Tool, ToolError};
 pub use tracker::{Closest, DEFAULT_CELLS, MAX_CELLS, ToolStatus, ToolWitness};

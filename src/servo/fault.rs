@@ -285,7 +285,7 @@ pub enum Event {
         millivolts: u32,
     },
     /// The handle's orientation was sensed: of a gimbal before every tick, of an inertial sensor as often as it
-    /// answers, at least every 20 ms. Matters to a [`super::ToolSurface`].
+    /// answers, at least every 20 ms. Matters to a [`crate::pair::ToolSurface`].
     Oriented {
         /// `(x, y, z, w)`, of length 1: takes the tool's frame to the device's.
         quaternion: [f32; 4],

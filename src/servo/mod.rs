@@ -48,7 +48,6 @@ mod soft;
 mod state;
 mod surface;
 mod tick;
-mod tool;
 mod tunable;
 mod watch;
 
@@ -61,8 +60,8 @@ pub use knob::{DialState, Knob, KnobError, KnobWitness, MAX_RETURN_RAD};
 pub use settings::{Rendering, RenderingError, SafeOutput, Safety, SafetyError, Settings, SettingsError, StuckLimits};
 pub use soft::{SoftBody, SoftContact};
 pub use state::ServoState;
+pub(crate) use surface::witness_words;
 pub use surface::{BakedTables, Carrier, OnePatch, PatchWitness, Surface, TableCheck, ToolContact, Touched, Tracked};
 pub use tick::Input;
-pub use tool::{HeldTool, ToolSurface};
 pub use tunable::{Tunable, TunableState, Tuning};
 pub use watch::{Deadline, FrameBridge, Heartbeat, PeriodWindow, Stillness};

@@ -82,7 +82,7 @@ pub trait Surface: BakedTables {
     /// Whether [`Self::push`] is its own. A [`crate::scene::Scene`] calls it of such a surface alone.
     const HAS_OWN_PUSH: bool = false;
 
-    /// Whether it renders a tool with a shape ([`super::ToolSurface`]): the loop then refuses friction, texture and a
+    /// Whether it renders a tool with a shape ([`crate::pair::ToolSurface`]): the loop then refuses friction, texture and a
     /// virtual coupling, which are those of a point.
     const HAS_SHAPED_TOOL: bool = false;
 
@@ -311,7 +311,7 @@ impl Tracked for BodyWitness {
 }
 
 /// Every word of a witness point.
-pub(super) fn witness_words(witness: &Witness, mut take: impl FnMut(u32)) {
+pub(crate) fn witness_words(witness: &Witness, mut take: impl FnMut(u32)) {
     for parameter in witness.parameters {
         take(parameter.to_bits());
     }

@@ -83,7 +83,10 @@ pub static RICH: ServoOf<SerialArm> = Servo::new(
         settings: TABLE_1C_AT,
         rendering: Rendering {
             friction: Some(FRICTION),
-            texture: Some(Texture { shape: TextureShape::Custom(|touch| grating(touch, 100.0, 0.3)), max_fraction: 0.2 }),
+            texture: Some(Texture {
+                shape: TextureShape::Custom(|touch| grating(touch, 100.0, 0.3)),
+                max_fraction: 0.2,
+            }),
             passivity: Some(PASSIVITY),
             max_slew_n_per_s: 200.0,
             ..Rendering::PLAIN

@@ -5,9 +5,9 @@ use core::hint::black_box;
 
 use palpate::body::{Aligned, Body, BodyBuffer, Edge, Face, MAX_FACES, TickLimit};
 use palpate::math::{Vec3, sin_cos};
-use palpate::pair::{Core, Tool};
+use palpate::pair::{Core, Tool, ToolSurface};
 use palpate::patch::Patch as _;
-use palpate::servo::{Config, Event, Input, Rendering, Servo, Settings, ToolSurface};
+use palpate::servo::{Config, Event, Input, Rendering, Servo, Settings};
 use semihosting::println;
 
 use super::servo::{APPROACH, Walk};
@@ -76,6 +76,6 @@ fn press(counter: &mut InstructionCounter, body: &Body<'_>, name: &str, core: Co
     }
     locating.print_as(name, "locating");
     holding.print_as(name, "held");
-    println!("\"{name}, bytes of state\" = {}", size_of::<palpate::servo::HeldTool>());
+    println!("\"{name}, bytes of state\" = {}", size_of::<palpate::pair::HeldTool>());
     Ok(())
 }

@@ -6,11 +6,11 @@ use palpate::body::Body;
 use palpate::device::presets::WOODEN_HAPTICS_2016 as DEVICE;
 use palpate::device::{Counts, Encoder, Mount as _, SerialArm, Wrist, WristState};
 use palpate::math::Vec3;
-use palpate::pair::{Core, ProxyError, Tool};
+use palpate::pair::{Core, ProxyError, Tool, ToolSurface};
 use palpate::render::Friction;
 use palpate::servo::{
-    Config, ConfigError, Event, Fault, Input, Phase, RenderingError, Safety, Servo, ServoState, Settings, ToolSurface,
-    Tracked as _, recommended::WOODEN_HAPTICS_2016 as FEEL,
+    Config, ConfigError, Event, Fault, Input, Phase, RenderingError, Safety, Servo, ServoState, Settings, Tracked as _,
+    recommended::WOODEN_HAPTICS_2016 as FEEL,
 };
 use palpate::track::Contact;
 use palpate_bake::file::BakedFile;
@@ -33,7 +33,7 @@ const GIMBAL: Wrist = Wrist {
 };
 
 type Loop<'a> = Servo<'a, ToolSurface<'a>, SerialArm, 3>;
-type State = ServoState<3, palpate::servo::HeldTool, ()>;
+type State = ServoState<3, palpate::pair::HeldTool, ()>;
 
 fn capped_box() -> (Body<'static>, DVec3) {
     let bytes = std::fs::read(repository("boards/bodies/capped_box.palp")).expect("it is there");

@@ -1,12 +1,11 @@
 //! A tool with a shape in the loop: the drawn tool is held outside of the body, and the hand's is coupled to it.
 
-use super::Settings;
-use super::surface::{BakedTables, Surface, Touched, Tracked, witness_words};
+use super::{DEFAULT_CELLS, Proxy, ProxyError, Tool, ToolCoupling};
 use crate::body::{Body, TableCursor};
 use crate::math::{Vec3, inverse_sqrt, product, sqrt};
-use crate::pair::{DEFAULT_CELLS, Proxy, ProxyError, Tool, ToolCoupling};
 use crate::patch::{SecondDerivatives, SurfacePoint};
 use crate::scene::BodyPose;
+use crate::servo::{BakedTables, Settings, Surface, Touched, Tracked, witness_words};
 use crate::track::{BoundaryMode, Contact, Controller, Probe, Witness};
 
 /// Relative to the body's size: a stretch below is rounding.
@@ -19,13 +18,13 @@ const MAX_TURN_RAD_PER_S: f32 = 40.0;
 /// A tool of some shape on a body, for a device that senses the orientation of its handle and drives three joints.
 ///
 /// The tool's frame has its origin at the probe, about which the handle turns, and the orientation of the last
-/// [`super::Event::Oriented`]: send one before every tick, from the encoders of a gimbal ([`crate::device::Wrist`]) or
+/// [`crate::servo::Event::Oriented`]: send one before every tick, from the encoders of a gimbal ([`crate::device::Wrist`]) or
 /// an inertial sensor. The drawn tool ([`Proxy`]) has the hand's orientation and lies where no contact is closed; the
 /// loop's wall pulls the probe to it, with its stiffness, damping, limits and slew.
 ///
 /// There is no force before the first orientation, until all contacts are located (some 30 to 200 ticks), and while the
 /// hand's tool is in the body. An orientation that is older than 20 ms, no rotation, or 40 rad/s from the one before
-/// ends contact as an implausible one does ([`super::ContactLimits`]): the force fades, the contacts are located again.
+/// ends contact as an implausible one does ([`crate::servo::ContactLimits`]): the force fades, the contacts are located again.
 ///
 /// The work of a tick is bounded, but large: on the capped box a ball takes at most 9,729 instructions of a Cortex-M4F, a
 /// capsule 36,174 and a box 84,332 (`palpate budgets --tool MODEL`; in single ticks, in which the face changes). Count it
@@ -38,8 +37,8 @@ const MAX_TURN_RAD_PER_S: f32 = 40.0;
 /// ```
 /// use palpate::body::{Aligned, Body, BodyBuffer, Edge, Face};
 /// use palpate::math::{Vec3, vec3};
-/// use palpate::pair::{Core, Tool};
-/// use palpate::servo::{Settings, Surface, ToolSurface, Tracked};
+/// use palpate::pair::{Core, Tool, ToolSurface};
+/// use palpate::servo::{Settings, Surface, Tracked};
 /// use palpate::track::{Contact, Controller, Probe};
 ///
 /// # static FILE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/boards/bodies/capped_box.palp")));
