@@ -23,7 +23,8 @@ pub struct Arguments {
     /// Instead: queries without history on a model's body, in front of its faces and anywhere around
     #[arg(long, value_name = "MODEL", conflicts_with = "record")]
     cold: Option<PathBuf>,
-    /// Instead: the servo tick of a ball, a capsule and a box, pressed into each face of a model's body
+    /// Instead: the servo tick of a ball (radius 3 mm), a capsule (18 mm) and a box (18, 12, 6 mm) with that radius, pressed
+    /// into each face of a model's body
     #[arg(long, value_name = "MODEL", conflicts_with_all = ["record", "cold"])]
     tool: Option<PathBuf>,
     /// Instead: the committed budget of the servo tick on every core

@@ -215,7 +215,8 @@ fn suits(board: BenchBoard, file: &DeviceFile) -> anyhow::Result<()> {
         if let Some(counts) = board.sensor_counts() {
             ensure!(
                 encoder.counts == counts,
-                "joint {name}: counts = {}, and {} reads angle sensors of {counts} counts a turn",
+                "joint {name}: counts = {}, and {} reads angle sensors of {counts} counts a turn; --board stm32g4 reads quadrature \
+                 encoders",
                 encoder.counts,
                 board.name()
             );

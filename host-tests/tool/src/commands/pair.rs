@@ -41,7 +41,7 @@ pub struct Arguments {
     /// Radius of the ball around the core.
     #[arg(long, value_name = "R", default_value_t = 0.0, allow_hyphen_values = true)]
     radius: f64,
-    /// Poses (CSV with a header).
+    /// Poses (CSV with the columns qw,qx,qy,qz,px,py,pz).
     #[arg(long, value_name = "IN.csv")]
     poses: PathBuf,
     /// Relation of the rows.
