@@ -3,13 +3,15 @@
 
 use crate::cache::{self, Evidence};
 use crate::cad;
-use anyhow::Context as _;
+use anyhow::{Context as _, bail};
 use glam::DVec3;
 use palpate_bake::file::BakedFile;
 use palpate_bake::locator::LocatorOptions;
 use palpate_bake::{BakedBody, Model, ModelError};
+use palpate_sim::scene::SceneFile;
 use sha2::{Digest as _, Sha256};
 use std::borrow::Cow;
+use std::io::ErrorKind;
 use std::path::Path;
 
 /// Every model that ships, as text, by name.
@@ -74,6 +76,10 @@ impl ModelFile {
         }
         match std::fs::read_to_string(path) {
             Ok(text) => Ok(Self { label, name, text: Cow::Owned(text), tables: None }),
+            Err(cause) if cause.kind() == ErrorKind::NotFound => {
+                let names = SHIPPED.map(|(name, _)| name).join(", ");
+                bail!("{label}: cannot be read: there is no such file; name one, or a shipped model: {names}")
+            }
             Err(cause) => Err(ModelError::Read { file: label, cause }.into()),
         }
     }
@@ -88,9 +94,12 @@ impl ModelFile {
     ///
     /// # Errors
     /// The first thing wrong with it.
-    pub fn model(&self) -> Result<Model, ModelError> {
+    pub fn model(&self) -> anyhow::Result<Model> {
         match &self.tables {
-            None => Model::parse(&self.text, &self.label),
+            None if SceneFile::is_one(&self.text) => {
+                bail!("{}: a scene file; name one of its models here, or run it with `sim` or `demo`", self.label)
+            }
+            None => Ok(Model::parse(&self.text, &self.label)?),
             Some(tables) => Ok(tables.file.model.clone()),
         }
     }
@@ -162,7 +171,7 @@ pub fn is_baked(path: &Path) -> bool {
 /// The first thing wrong with it, or that there are only tables.
 pub fn read(path: &Path) -> anyhow::Result<Model> {
     anyhow::ensure!(!is_baked(path), "{}: holds tables only; this command needs their model file", path.display());
-    Ok(ModelFile::read(path)?.model()?)
+    ModelFile::read(path)?.model()
 }
 
 #[cfg(test)]
@@ -184,8 +193,16 @@ mod tests {
         }
         for absent in ["./teapot", "teapot.toml", "no-such-model"] {
             let error = ModelFile::read(Path::new(absent)).expect_err(absent).to_string();
-            assert!(error.starts_with(&format!("{absent}: cannot be read")), "{error}");
+            assert!(
+                error.starts_with(&format!("{absent}: cannot be read: there is no such file; name one")),
+                "{error}"
+            );
+            assert!(error.contains("capped_box"), "{error}");
         }
+        let scene = ModelFile::read(&folder.join("../scenes/effects.toml"))?.model().expect_err("a scene").to_string();
+        assert!(
+            scene.ends_with("effects.toml: a scene file; name one of its models here, or run it with `sim` or `demo`")
+        );
         Ok(())
     }
 }

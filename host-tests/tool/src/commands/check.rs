@@ -180,8 +180,8 @@ fn verdicts(report: &mut String, wide: usize, labels: &[String], surveys: &[Surv
     }
     writeln!(
         report,
-        "\nproved: of the stored table; up to rounding: but for the rounding of its numbers to f32; sampled (n): n random probes found \
-         nothing wrong, which proves nothing; no: refuted, or not to be had"
+        "\nproved: of the stored table; up to rounding: apart from the rounding of its numbers to f32; sampled (n): n random probes found \
+         nothing wrong, which proves nothing; no: refuted, or not determined"
     )
 }
 
