@@ -27,7 +27,7 @@ pub struct Recording {
     pub device: String,
     /// Its numbers, in the format of `palpate_sim::recorded`, in base64, with those of its protection.
     pub device_numbers: String,
-    /// Hash of these, see [`hash_of`]: a recording whose device or body was exchanged says which.
+    /// Hash of these, see `hash_of`: a recording whose device or body was exchanged says which.
     pub device_hash: String,
     /// Rate, stiffness, damping, maximum force, velocity corner, soft start, and the body's origin: SI units.
     pub settings: [f32; 9],
