@@ -116,7 +116,8 @@ impl Held {
         held.angles = held.nearest_pose();
         if held.reach(Vec3::ZERO, f32::INFINITY).length() > ARRIVED * 10.0 {
             let reason = "is out of the mechanism's reach, or of the joints' ranges";
-            return Err(alloc::format!("{label}: mechanism.workspace_centre: {reason}: change it, or `joint.range`"));
+            let entry = own.file.mechanism.centre();
+            return Err(alloc::format!("{label}: {entry}: {reason}: change it, or `joint.range`"));
         }
         held.home = held.angles;
         Ok(held)

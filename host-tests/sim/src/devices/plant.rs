@@ -20,29 +20,32 @@ const TURNTABLE: f64 = 2.0e-3;
 const ROTOR: f64 = 1e-6;
 
 /// The plant of a file; else the entry that it refuses, and why.
-pub(super) fn settings(file: &DeviceFile) -> Result<PlantSettings, (&'static str, &'static str)> {
-    Ok(PlantSettings {
+pub(super) fn settings(file: &DeviceFile) -> Result<PlantSettings, (&'static str, String)> {
+    let settings = PlantSettings {
         mechanism: mechanism(&file.mechanism),
         gravity: 9.81,
         joints: core::array::from_fn(|index| joint(&file.joint[index])),
         current_time_constant: 1.5e-4,
         delay_periods: 1.0,
         sub_steps: 20,
-    })
-    .and_then(|settings: PlantSettings| {
-        let angles = settings.mechanism(0.0).angles([0.0; 3]);
-        let within = |angles: [f64; 3]| {
-            angles
-                .iter()
-                .zip(&settings.joints)
-                .all(|(angle, joint)| joint.stops[0] <= *angle && *angle <= joint.stops[1])
-        };
-        if angles.is_some_and(within) {
-            Ok(settings)
-        } else {
-            Err(("mechanism.workspace_centre", "is out of the mechanism's reach, or of the joints' ranges"))
+    };
+    let refuse = |reason: String| {
+        let serial = "; put it half to 0.7 of first_link + second_link from the first link's axis";
+        let start = if matches!(file.mechanism, MechanismEntry::SerialArm { .. }) { serial } else { "" };
+        Err((file.mechanism.centre(), format!("{reason}{start}")))
+    };
+    let Some(angles) = settings.mechanism(0.0).angles([0.0; 3]) else {
+        return refuse("is out of the mechanism's reach".to_owned());
+    };
+    for ((angle, JointSettings { stops: [least, most], .. }), JointEntry { name, .. }) in
+        angles.iter().zip(&settings.joints).zip(&file.joint)
+    {
+        if !(least..=most).contains(&angle) {
+            let stops = format!("{STOPS_WITHIN} rad within its range");
+            return refuse(format!("needs joint {name} at {angle:.2} rad, beyond its stops, {stops}"));
         }
-    })
+    }
+    Ok(settings)
 }
 
 fn direction(ratio: f64) -> Direction {

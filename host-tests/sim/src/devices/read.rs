@@ -137,7 +137,7 @@ impl OwnDevice {
         }
         let protection = protection(&file);
         #[cfg(feature = "std")]
-        let plant = plant::settings(&file).map_err(|(entry, reason)| refuse(entry, reason))?;
+        let plant = plant::settings(&file).map_err(|(entry, reason)| refuse(entry, &reason))?;
         Ok(Self {
             preset,
             protection,

@@ -79,6 +79,16 @@ pub enum MechanismEntry {
     },
 }
 
+impl MechanismEntry {
+    /// The entry that places the centre of the workspace.
+    pub const fn centre(&self) -> &'static str {
+        match self {
+            Self::SerialArm { .. } | Self::LinkageArm(_) => "mechanism.workspace_centre",
+            Self::Delta { .. } => "mechanism.workspace_depth",
+        }
+    }
+}
+
 /// A linkage on a turntable, lengths in metres.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]

@@ -96,7 +96,8 @@ fn rest<K>(name: &str, settings: &PlantSettings, device: &Device<K, 3>) -> (Limi
             torque_constant: plant.torque_constant,
             current_at_full: plant.current_at_full,
             ratio: sign(plant.motor_direction) * plant.ratio,
-            continuous_current: decimal(endurance.continuous) * plant.current_at_full,
+            // Without the noise of the share's rounding.
+            continuous_current: (decimal(endurance.continuous) * plant.current_at_full * 1e6).round() / 1e6,
             time_constant: decimal(endurance.time_constant_s),
             max_rate: decimal(protection.max_joint_rates_rad_per_s[index]),
             bridge: match device.feeds[index] {

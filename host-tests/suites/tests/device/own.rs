@@ -69,6 +69,7 @@ fn a_bad_file_is_refused_by_its_entry() {
         ("first_link = 0.205", "first_link = -0.205", "mechanism.first_link"),
         ("first_link = 0.205", "first_link = 205.0", "mechanism.first_link"),
         ("workspace_centre = [0.22, 0.0, 0.08]", "workspace_centre = [0.9, 0.0, 0.08]", "mechanism.workspace_centre"),
+        ("range = [-1.6, 1.6]", "range = [0.5, 1.6]", "mechanism.workspace_centre: needs joint a at 0.00 rad"),
         ("range = [-1.6, 1.6]", "range = [1.6, -1.6]", "joint 0: range"),
         ("channel = 1", "channel = 0", "joint 1: channel"),
         ("max_force = 5.0", "max_force = -5.0", "limits"),

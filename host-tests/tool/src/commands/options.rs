@@ -194,7 +194,11 @@ impl SceneOptions {
         let has_room = |place| mechanism.angles(place).is_some_and(|angles| preset.room(angles) > 0.0);
         let path = TouchingPath::within(point_and_normal, self.seconds, self.seed, has_room).map_err(|error| {
             if error == PathError::NoRoom {
-                anyhow!("{}: {error} (move it with --at)", scene.device.name)
+                anyhow!(
+                    "{}: {error}: move the model with --at, or the workspace by its device file: `workspace_centre` \
+                     (of a delta `workspace_depth`), each joint's `range`, or a lower `min_margin`",
+                    scene.device.name
+                )
             } else {
                 anyhow::Error::new(error).context("the hand finds no path over the surface; move the model with --at")
             }
