@@ -202,6 +202,8 @@ pub(super) struct Baked {
     pub middle: Vec3,
     /// Where the tables' frame lies in the model's, metres.
     pub centre: DVec3,
+    /// Flaws of the body, and whether it is not certified: a line each.
+    pub remarks: String,
 }
 
 /// Bakes a model as [`run`] does with its defaults.
@@ -222,7 +224,13 @@ pub(super) fn baked(path: &Path, out_file: &str) -> anyhow::Result<Baked> {
     let source = source::source(&origin, &loaded.model, &loaded.body)?;
     let patches = loaded.body.faces.iter().map(|face| face.patch.to_patch()).collect::<Result<Vec<_>, _>>()?;
     let middle = felt::middle(patches.iter());
-    Ok(Baked { source, bytes: bytes(&loaded), middle, centre: loaded.model.centre })
+    let flaws = loaded.flaws();
+    let mut remarks: String = flaws.iter().map(|flaw| loaded.describe(flaw) + "\n").collect();
+    if loaded.verdict(&flaws) == Verdict::Usable {
+        remarks += check::NOT_CERTIFIED;
+        remarks.push('\n');
+    }
+    Ok(Baked { source, bytes: bytes(&loaded), middle, centre: loaded.model.centre, remarks })
 }
 
 /// A model's body as a file, as [`run`] writes it with its defaults.

@@ -180,7 +180,7 @@ fn chosen(board: AnyBoard, kind: Kind, model: &Path, at: Option<DVec3>) -> anyho
         file,
         place,
         origin,
-        says: format!("{name} on {}: {} bytes of tables {lies}", board.name(), baked.bytes),
+        says: format!("{}{name} on {}: {} bytes of tables {lies}", baked.remarks, board.name(), baked.bytes),
     })
 }
 
