@@ -50,13 +50,13 @@ impl BenchBoard {
     pub const fn memories(self, kind: Kind) -> &'static [Memory] {
         const STM32G4: &[Memory] = &[
             memory("CCM", 0x1000_0000, 32 * KB, "core-coupled RAM"),
-            memory("STACK", 0x2000_0000, 8 * KB, "RAM, left to the stack"),
+            memory("STACK", 0x2000_0000, 8 * KB, "RAM, all for the stack"),
             memory("RAM", 0x2000_2000, 16 * KB, "RAM"),
             memory("TABLES", 0x2000_6000, 72 * KB, "RAM"),
             memory("FLASH", 0x0800_0000, 384 * KB, "flash"),
         ];
         const PICO2: &[Memory] = &[
-            memory("STACK", 0x2000_0000, 32 * KB, "RAM, left to the stack"),
+            memory("STACK", 0x2000_0000, 32 * KB, "RAM, all for the stack"),
             memory("RAM", 0x2000_8000, 32 * KB, "RAM"),
             memory("FAST", 0x2001_0000, 448 * KB, "RAM"),
             memory("FLASH", 0x1000_0000, 3 * KB * KB, "flash"),
@@ -74,13 +74,13 @@ impl BenchBoard {
         ];
         const STM32G4_HOSTED: &[Memory] = &[
             memory("CCM", 0x1000_0000, 32 * KB, "core-coupled RAM"),
-            memory("STACK", 0x2000_0000, 8 * KB, "RAM, left to the stack"),
+            memory("STACK", 0x2000_0000, 8 * KB, "RAM, all for the stack"),
             memory("RAM", 0x2000_2000, 28 * KB, "RAM"),
             memory("TABLES", 0x2000_9000, 60 * KB, "RAM"),
             memory("FLASH", 0x0800_0000, 128 * KB, "flash"),
         ];
         const PICO2_HOSTED: &[Memory] = &[
-            memory("STACK", 0x2000_0000, 32 * KB, "RAM, left to the stack"),
+            memory("STACK", 0x2000_0000, 32 * KB, "RAM, all for the stack"),
             memory("RAM", 0x2000_8000, 224 * KB, "RAM"),
             memory("FAST", 0x2004_0000, 256 * KB, "RAM"),
             memory("FLASH", 0x1000_0000, 3 * KB * KB, "flash"),
@@ -165,6 +165,11 @@ pub fn report(board: BenchBoard, kind: Kind, image: &Path) -> Result<String, Set
         .sum();
     let mut text = String::new();
     for memory in board.memories(kind) {
+        // The stack has no section: the whole memory is its.
+        if memory.name == "STACK" && taken(memory) == 0 {
+            let _ = writeln!(text, "  {:<7} {:>8}    {:>8} bytes  {}", memory.name, "", memory.bytes, memory.kind);
+            continue;
+        }
         let copies = if memory.kind == "flash" { format!(", and {images} of images for RAM") } else { String::new() };
         let _ = writeln!(
             text,
