@@ -46,7 +46,7 @@ pub struct Arguments {
 }
 
 /// Patches up to which the flash is counted, by a locator that stays in the cache for `bake`: some ten processor seconds.
-const COUNTED: usize = 32;
+const COUNTED: usize = 128;
 /// Bytes of flash for each patch of other bodies: parts take 1 to 3 KB.
 const PER_PATCH: u64 = 2_000;
 
@@ -57,7 +57,9 @@ fn outcome(mut loaded: Loaded, text: &str) -> anyhow::Result<String> {
     if faces > COUNTED {
         let bytes = faces as u64 * PER_PATCH;
         let boards = table_report::fits(bytes);
-        let flash = format!("about {bytes} bytes of flash (`bake --table-report` counts them)");
+        let flash = format!(
+            "some {bytes} bytes of flash at {PER_PATCH} a patch (an estimate; `palpate bake --table-report` counts them)"
+        );
         return Ok(format!("usable: worst-case deviation {deviation} (sampled), {flash}, fits {boards}"));
     }
     let tables = if faces > 1 {

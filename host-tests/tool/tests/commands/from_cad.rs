@@ -10,6 +10,7 @@ const MESHED: [(&str, usize, usize); 3] =
 
 #[test]
 fn imported_parts_take_a_third_of_the_patches_and_bytes_of_meshed_ones() -> Result<(), Box<dyn Error>> {
+    let page = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/howto/cad.md"))?;
     for (part, patches, bytes) in MESHED {
         let model = format!("{}/../suites/data/{part}.toml", env!("CARGO_MANIFEST_DIR"));
         let run = Command::new(env!("CARGO_BIN_EXE_palpate")).args(["parts", &model]).output()?;
@@ -18,6 +19,9 @@ fn imported_parts_take_a_third_of_the_patches_and_bytes_of_meshed_ones() -> Resu
         assert_eq!(row[1], part, "{table}");
         let (own, flash): (usize, usize) = (row[3].parse()?, row[5].parse()?);
         println!("{part}: {own} patches and {flash} bytes, meshed {patches} and {bytes}");
+        let [fewer, smaller] = [(patches, own), (bytes, flash)].map(|(of, to)| of as f64 / to as f64);
+        let row = format!(" | {patches} | {own} | {fewer:.1} | {bytes} | {flash} | {smaller:.1} |\n");
+        assert!(page.contains(&row), "docs/howto/cad.md has another row than{row}");
         assert!(3 * own <= patches, "{part}: {own} patches");
         assert!(3 * flash <= bytes, "{part}: {flash} bytes");
     }
