@@ -2,7 +2,7 @@
 
 use super::bake;
 use crate::budgets::{Budget, Figures, Verdict, measure, on_file};
-use crate::firmware::{Board, Progress};
+use crate::firmware::{BenchBoard, Board, Progress};
 use clap::Args;
 use std::fmt::Write as _;
 use std::fs;
@@ -24,7 +24,7 @@ pub struct Arguments {
     #[arg(long, value_name = "MODEL", conflicts_with = "record")]
     cold: Option<PathBuf>,
     /// Instead: the servo tick of a ball (radius 3 mm), a capsule (18 mm) and a box (18, 12, 6 mm) with that radius, pressed
-    /// into each face of a model's body
+    /// into each face of a model's body, and the rate that fits on each bench board
     #[arg(long, value_name = "MODEL", conflicts_with_all = ["record", "cold"])]
     tool: Option<PathBuf>,
     /// Instead: the committed budget of the servo tick on every core
@@ -49,6 +49,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         fs::write(&file, bake::file_of(model)?)?;
         let found = on_file(arguments.board, &file, feature, &Progress::new())?;
         found.0.iter().for_each(|(name, count)| println!("{name:<45}  {count:>8}"));
+        if feature == "tool" && Board::CORTEX_F.contains(&arguments.board) {
+            print!("{}", fits(&found));
+        }
         return Ok(ExitCode::SUCCESS);
     }
     let found = measure(arguments.board, &Progress::new())?;
@@ -66,6 +69,22 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
 /// Cycles of an instruction on any chip: the model of `palpate cycles` has 1.7 to 2.1 for a Cortex-M4F, and memory answers
 /// late.
 const CYCLES: f64 = 2.7;
+
+/// The bench boards with their clocks, Hz.
+const CHIPS: [(BenchBoard, f64); 3] =
+    [(BenchBoard::Stm32g4, 170e6), (BenchBoard::Pico2, 150e6), (BenchBoard::Teensy41, 600e6)];
+
+/// The rate at which the worst tick of each tool fills a period of each bench board.
+fn fits(found: &Figures) -> String {
+    let mut text = format!("\nat {CYCLES} cycles an instruction, on boards that run at 3000 Hz and more:\n");
+    for tool in ["ball", "capsule", "box"] {
+        let worst = ["locating", "held"].map(|part| found.of(&format!("{tool}, {part}, worst")).unwrap_or_default());
+        let cycles = CYCLES * f64::from(worst[0].max(worst[1]));
+        let rates = CHIPS.map(|(board, hertz)| format!("{:.0} Hz on {}", hertz / cycles, board.name()));
+        text += &format!("{tool:<8} fits up to {}\n", rates.join(", "));
+    }
+    text
+}
 
 /// The cost of the servo tick on each core, as a table, with the rate at which the worst tick fills a period of a chip.
 fn cores() -> anyhow::Result<String> {
@@ -102,5 +121,23 @@ fn print_table(found: &Figures, verdicts: &[Verdict]) {
         let shown = |count: Option<u32>| count.map_or_else(|| "-".to_owned(), |count| count.to_string());
         let Verdict { name, found, allowed } = verdict;
         println!("{name:<width$}  {:>8}  {:>8}  {}", shown(*found), shown(*allowed), verdict.remark());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_worst_tick_of_a_tool_fills_a_period() {
+        let worst =
+            [("ball, locating", 6_572), ("ball, held", 9_722), ("capsule, held", 36_166), ("box, held", 84_324)];
+        let text = fits(&Figures(worst.map(|(name, count)| (format!("{name}, worst"), count)).into()));
+        // 9,722 instructions at 2.7 cycles are 26,249 cycles, 154.4 µs at 170 MHz.
+        assert!(
+            text.contains("\nball     fits up to 6476 Hz on stm32g4, 5714 Hz on pico2, 22858 Hz on teensy41\n"),
+            "{text}"
+        );
+        assert!(text.contains("\nbox      fits up to 747 Hz on stm32g4,"), "{text}");
     }
 }
