@@ -21,6 +21,9 @@ fn faults(page: &Page, of: &str) -> anyhow::Result<Vec<String>> {
     Ok(found.iter().map(|fault| format!("{of}: {}", fault.as_str().unwrap_or_default())).collect())
 }
 
+/// Figures that a phone does not show legibly: the paper's sheets, which open by themselves, and those drawn by hand.
+const WIDE: [&str; 4] = ["-figure", "-rate", "tick", "commission"];
+
 /// A page that has every fault.
 const BAD: &str = "data:text/html,<body style='margin:0'><p style='position:absolute'>over<p style='position:absolute'>\
     under</p><div style='position:absolute;top:90px;left:370px'>beside</div><div style='position:absolute;top:140px;width:\
@@ -29,7 +32,7 @@ const BAD: &str = "data:text/html,<body style='margin:0'><p style='position:abso
     <text x=40 y=20>out of it</text></svg>";
 
 #[test]
-fn no_words_are_covered_cut_small_or_pale() -> anyhow::Result<()> {
+fn no_words_of_reports_and_figures_are_covered_cut_small_or_pale() -> anyhow::Result<()> {
     let page = Page::empty()?;
     page.set_size([390, HEIGHT], 1.0)?;
     page.tab.navigate_to(BAD)?.wait_until_navigated()?;
@@ -64,13 +67,27 @@ fn no_words_are_covered_cut_small_or_pale() -> anyhow::Result<()> {
         figures += 1;
         page.tab.navigate_to(&format!("file://{}", file.display()))?.wait_until_navigated()?;
         let name = file.file_name().unwrap_or_default().to_string_lossy();
+        // As wide as a phone shows it in a page.
+        if !WIDE.iter().any(|part| name.contains(part)) {
+            page.ask("document.documentElement.setAttribute('width', '350')")?;
+        }
         for scheme in SCHEMES {
             page.prefer(scheme)?;
             all.extend(faults(&page, &format!("{name}, {scheme}"))?);
         }
     }
     ensure!(figures > 20, "{figures} figures");
-    page.run(&address())?;
+    ensure!(all.is_empty(), "{} faults:\n{}", all.len(), all.join("\n"));
+    Ok(())
+}
+
+#[test]
+fn no_words_of_the_page_are_covered_cut_small_or_pale() -> anyhow::Result<()> {
+    // Before the browser starts, which does not wait while this builds.
+    let address = address();
+    let page = Page::empty()?;
+    page.run(&address)?;
+    let mut all = Vec::new();
     for width in WIDTHS.into_iter().chain(NARROW) {
         // Small: a processor draws each frame.
         page.set_size([width, HEIGHT], 0.25)?;

@@ -2,7 +2,7 @@
 
 use super::page::{THICK, THIN};
 use crate::models;
-use crate::plot::{Anchor, Area, Axes, Axis, Chart, FIGURE, Ink, Mark, Svg, View, draw};
+use crate::plot::{Anchor, Area, Axes, Axis, Chart, Ink, Mark, SHEET, Svg, View, draw};
 use anyhow::{Context as _, ensure};
 use glam::DVec3;
 use palpate::body::{Body, Feature};
@@ -175,7 +175,7 @@ fn ink(feature: Feature) -> Ink {
 
 /// Figure 9: the way around the body, and `u`, `v` and the active feature over time.
 pub fn draw_tour(touring: &Touring, samples: &[Sample]) -> String {
-    draw(FIGURE, 860.0, |svg, area| {
+    draw(SHEET, 860.0, |svg, area| {
         let (upper, lower) = area.split_at(520.0);
         around(svg, upper, touring, samples);
         over_time(svg, lower, touring, samples);
@@ -236,7 +236,7 @@ fn over_time(svg: &mut Svg, area: Area, touring: &Touring, samples: &[Sample]) {
 
 /// Figure 3: slices through the Voronoi regions.
 pub fn draw_regions(slices: &[Slice; 2]) -> String {
-    draw(FIGURE, 480.0, |svg, area| {
+    draw(SHEET, 480.0, |svg, area| {
         slices.iter().zip(area.split(1, 2)).for_each(|(slice, panel)| draw_slice(svg, panel, slice));
     })
 }

@@ -2,7 +2,7 @@
 
 use super::page::{THICK, THIN, scene, view_across};
 use super::subject::Subject;
-use crate::plot::{Area, Axes, Axis, FIGURE, Ink, Key, Mark, Svg, draw};
+use crate::plot::{Area, Axes, Axis, Ink, Key, Mark, SHEET, Svg, draw};
 use anyhow::bail;
 use glam::DVec3;
 use palpate::math::Vec3;
@@ -231,7 +231,7 @@ const SNAPSHOT: usize = 12;
 
 /// The figure, as SVG text: runs at the good, the chattering and the slow gain, and those without a gain to choose.
 pub fn draw_tracking(subject: &Subject, runs: &[Vec<Sample>; 3], certified: &[Vec<Sample>; 2]) -> String {
-    draw(FIGURE, 1_100.0, |svg, area| {
+    draw(SHEET, 1_100.0, |svg, area| {
         let rows = area.split(3, 1);
         let (upper, lower) = (rows[0].split(1, 2), rows[1].split(1, 2));
         path(svg, upper[0], subject, &runs[0]);

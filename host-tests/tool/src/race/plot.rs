@@ -5,8 +5,8 @@ use super::table::{CALL, OURS, described, grouped};
 use crate::plot::{Anchor, Area, Axes, Axis, FIGURE, Ink, Mark, Svg, draw as svg};
 
 /// Height of a line, and of what stands above and below the lines of a panel, px.
-const LINE: f64 = 25.0;
-const BESIDES: f64 = 106.0;
+const LINE: f64 = 40.0;
+const BESIDES: f64 = 126.0;
 /// The scale: instructions.
 const SCALE: [f64; 2] = [100.0, 1e9];
 
@@ -27,8 +27,8 @@ pub fn draw(scenes: &[Vec<Score>]) -> String {
 fn draw_panel(svg: &mut Svg, area: Area, scores: &[&Score]) {
     let Some(first) = scores.first() else { return };
     let title = format!("{} {}, {} queries; share of misses", first.model, first.task.name(), first.queries);
-    // Upwards, so the first comes last.
-    let names: Vec<String> = scores.iter().rev().map(|score| described(score).to_owned()).collect();
+    // A phone has no room for words beside a bar: they stand over it.
+    let names = vec![String::new(); scores.len()];
     let keys = [
         ("palpate", Ink::Blue, Mark::Fill),
         ("Newton", Ink::Green, Mark::Fill),
@@ -37,6 +37,7 @@ fn draw_panel(svg: &mut Svg, area: Area, scores: &[&Score]) {
     ];
     let x = Axis::log("instructions a query, median", SCALE);
     let mut chart = Axes { title: &title, x, y: Axis::named("", &names), keys: &keys }.on(svg, area);
+    // Upwards, so the first comes last.
     for (line, score) in scores.iter().rev().enumerate() {
         let middle = line as f64;
         let ink = match score.contestant.as_str() {
@@ -46,11 +47,12 @@ fn draw_panel(svg: &mut Svg, area: Area, scores: &[&Score]) {
         };
         let [median, most] =
             [score.instructions.median, score.instructions.most].map(|count| (count as f64).max(SCALE[0]));
-        chart.fill(ink, [[(SCALE[0], middle - 0.28), (median, middle + 0.28)]]);
-        chart.line(ink, 2.0, [(median, middle), (most, middle)]);
+        let bar = middle - 0.2;
+        chart.fill(ink, [[(SCALE[0], bar - 0.15), (median, bar + 0.15)]]);
+        chart.line(ink, 2.0, [(median, bar), (most, bar)]);
         let misses = 100.0 * score.misses as f64 / score.queries as f64;
         let misses = if score.misses == 0 { "no miss".to_owned() } else { format!("{misses:.1} % missed") };
-        let label = format!("{}, {misses}", grouped(score.instructions.median));
-        chart.words((most.max(median), middle), (8.0, 0.0), Anchor::Start, Ink::Text, &label);
+        let label = format!("{}: {}, {misses}", described(score), grouped(score.instructions.median));
+        chart.words((SCALE[0], middle + 0.22), (4.0, 0.0), Anchor::Start, Ink::Text, &label);
     }
 }

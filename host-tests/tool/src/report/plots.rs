@@ -113,7 +113,7 @@ fn over_time(
 
 /// The probe's path over the surface, as an SVG of its own.
 pub fn path(trace: &Trace, net: &Net) -> String {
-    crate::plot::draw(crate::plot::FIGURE, 520.0, |svg, area| along(svg, area, trace, net))
+    crate::plot::draw(crate::plot::FIGURE, 300.0, |svg, area| along(svg, area, trace, net))
 }
 
 fn along(svg: &mut Svg, area: Area, trace: &Trace, net: &Net) {

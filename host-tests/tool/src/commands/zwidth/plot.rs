@@ -16,9 +16,8 @@ pub fn plot(slice: &Slice, limits: &[Limit]) -> String {
     let names: Vec<String> = delays.iter().map(|delay| format!("delay {delay} T")).collect();
     let named = names.iter().zip(Ink::FAMILY).map(|(name, ink)| (name.as_str(), ink, Mark::Line));
     let keys: Vec<Key<'_>> = named.chain([("passive", Ink::Text, Mark::Dashed)]).collect();
-    let (rows, columns) = (rates.len().div_ceil(2).max(1), rates.len().clamp(1, 2));
-    draw(FIGURE, 400.0 * rows as f64, |svg, area| {
-        for (panel, rate) in area.split(rows, columns).into_iter().zip(rates) {
+    draw(FIGURE, 360.0 * rates.len() as f64, |svg, area| {
+        for (panel, rate) in area.split(rates.len(), 1).into_iter().zip(rates) {
             let title = format!("{}, {} kHz", slice.name, rate / 1_000.0);
             let x = Axis::log("damping of the wall, N·s/m (left edge: none)", [ZERO, 200.0]);
             let y = Axis::log("maximum stiffness, N/m", [1.0, 100_000.0]);
