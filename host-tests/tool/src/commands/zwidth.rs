@@ -23,8 +23,8 @@ const WEAKEST: [f64; 3] = [0.0, 2.0, 8.0];
 
 /// Finds the stiffest and most damped wall of a device: a table, and a plot with the passive bound.
 ///
-/// The table is along z at the middle of the workspace (two joints: y, one: x); for one device the weakest direction of
-/// the workspace follows.
+/// The table is along z at the middle of the workspace (two joints: y, one: x); the weakest direction of the workspace
+/// follows.
 #[derive(Args, Debug)]
 pub struct Arguments {
     /// Device: a name, your own file (my.toml), or `all`.
@@ -145,10 +145,9 @@ fn print_table(
         }
     }
     println!();
-    if let Some((place, way, weak)) = Slice::weakest(device) {
-        let ([x, y, z], [along_x, along_y, along_z]) = (place.map(|length| 1e3 * length), way);
+    if let Some((place, weak)) = summary::weakest(device) {
         println!(
-            "maximum stiffness in the weakest direction of the workspace: at ({x:.0}, {y:.0}, {z:.0}) mm along ({along_x:.2}, {along_y:.2}, {along_z:.2}), {:.4} kg, behind 1 period",
+            "maximum stiffness in the weakest direction of the workspace: {place}, {:.4} kg, behind 1 period",
             weak.mass
         );
         for rate in rates {

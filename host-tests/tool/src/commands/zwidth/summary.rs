@@ -14,36 +14,19 @@ const DELAY: f64 = 1.0;
 /// If the progress bar cannot be drawn.
 pub fn print(devices: &[&ShippedDevice], rates: &[f64], like: Loop, soft: Option<&[SoftWall]>) -> anyhow::Result<()> {
     println!(
-        "maximum stiffness at any damping, N/m, along z at the middle of the workspace (two joints: y, one: x; `--device NAME` \
-         adds the weakest direction), behind {DELAY} period: simulated (passive, without damping); any: even full force at half a count"
+        "maximum stiffness at any damping, N/m, along z at the middle of the workspace (two joints: y, one: x) and in the \
+         weakest direction of the workspace, behind {DELAY} period: simulated (passive, without damping); any: even full \
+         force at half a count"
     );
     print!("{:<20}{:>8}{:>9}{:>8}{:>6}", "device", "kg", "N·s/m", "N", "µm");
     rates.iter().for_each(|rate| print!("{:>18}", format!("{} kHz", rate / 1_000.0)));
-    let ends = rates.first().zip(rates.last()).filter(|(first, last)| first < last);
-    if let Some((first, last)) = ends {
+    if let Some([first, last]) = ends(rates) {
         print!("{:>14}", format!("{} : {} kHz", last / 1_000.0, first / 1_000.0));
     }
     println!();
     for device in devices {
         let slice = Slice::of(device);
-        let limits = sweep_with_bar(&slice, rates, &[DELAY], like, None)?;
-        print!(
-            "{:<20}{:>8.4}{:>9.3}{:>8.3}{:>6.0}",
-            slice.name,
-            slice.mass,
-            slice.viscous,
-            slice.coulomb,
-            slice.resolution * 1e6
-        );
-        for rate in rates {
-            let [simulated, passive] = best(&limits, *rate, DELAY);
-            print!("{:>18}", format!("{} ({passive:.1})", in_words(&slice, simulated)));
-        }
-        if let Some((first, last)) = ends {
-            let [low, high] = [first, last].map(|rate| best(&limits, *rate, DELAY)[0]);
-            print!("{:>14.2}", high / low);
-        }
-        println!();
+        print_row(slice.name, &slice, rates, like)?;
         if soft.is_some() {
             let limits = sweep_with_bar(&slice, rates, &[DELAY], like, soft)?;
             print!("{:<51}", "  on the body");
@@ -52,13 +35,48 @@ pub fn print(devices: &[&ShippedDevice], rates: &[f64], like: Loop, soft: Option
             }
             println!();
         }
-        if let Some(low) = limits.iter().find(|limit| limit.simulated < limit.passive * 0.98) {
-            println!("BELOW THE PASSIVE BOUND: {low:?}");
+        if let Some((_, weak)) = weakest(device) {
+            print_row("  weakest direction", &weak, rates, like)?;
         }
     }
     println!();
     for device in devices {
         println!("{}: {}", device.name, device.assumed);
+        if let Some((place, _)) = weakest(device) {
+            println!("  weakest direction {place}");
+        }
+    }
+    Ok(())
+}
+
+/// Where and along what an undamped wall of a device is weakest, and its slice there.
+pub(super) fn weakest(device: &ShippedDevice) -> Option<(String, Slice)> {
+    let ([x, y, z], [along_x, along_y, along_z], slice) = Slice::weakest(device)?;
+    let [x, y, z] = [x, y, z].map(|length| 1e3 * length);
+    Some((format!("at ({x:.0}, {y:.0}, {z:.0}) mm along ({along_x:.2}, {along_y:.2}, {along_z:.2})"), slice))
+}
+
+/// The first and the last of several rates.
+fn ends(rates: &[f64]) -> Option<[f64; 2]> {
+    let ends = [*rates.first()?, *rates.last()?];
+    (ends[0] < ends[1]).then_some(ends)
+}
+
+fn print_row(name: &str, slice: &Slice, rates: &[f64], like: Loop) -> anyhow::Result<()> {
+    let limits = sweep_with_bar(slice, rates, &[DELAY], like, None)?;
+    let Slice { mass, viscous, coulomb, resolution, .. } = slice;
+    print!("{name:<20}{mass:>8.4}{viscous:>9.3}{coulomb:>8.3}{:>6.0}", resolution * 1e6);
+    for rate in rates {
+        let [simulated, passive] = best(&limits, *rate, DELAY);
+        print!("{:>18}", format!("{} ({passive:.1})", in_words(slice, simulated)));
+    }
+    if let Some(ends) = ends(rates) {
+        let [low, high] = ends.map(|rate| best(&limits, rate, DELAY)[0]);
+        print!("{:>14.2}", high / low);
+    }
+    println!();
+    if let Some(low) = limits.iter().find(|limit| limit.simulated < limit.passive * 0.98) {
+        println!("BELOW THE PASSIVE BOUND: {low:?}");
     }
     Ok(())
 }
