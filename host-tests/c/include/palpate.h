@@ -535,6 +535,12 @@ enum {
     PALPATE_FEEL_NOTCH = 8     /**< palpate_feel::notch. */
 };
 
+/** A number that was refused, beside its limit: N·m/rad, N·m·s/rad, N·m or rad, by the status. */
+typedef struct palpate_beyond {
+    float asked; /**< The sum of the parts, or how far the dial would be turned. */
+    float limit; /**< Of the motor, or an eighth of a turn. Both are 0 where the status needs no number. */
+} palpate_beyond;
+
 /** A dial after a tick. */
 typedef struct palpate_turned {
     int32_t turns;  /**< Whole turns beside the angle. */
@@ -880,8 +886,18 @@ palpate_status palpate_servo_start_dial_protected(palpate_servo *servo, size_t s
  * @param servo the loop
  * @param part  which, such as #PALPATE_FEEL_DETENTS
  * @param feel  holds the part; nothing else of it is looked at
+ * @param beyond the number that was refused, or NULL; written on a refusal of the part only
  */
-palpate_status palpate_servo_set_feel(palpate_servo *servo, uint32_t part, const palpate_feel *feel);
+palpate_status palpate_servo_set_feel(palpate_servo *servo, uint32_t part, const palpate_feel *feel,
+                                      palpate_beyond *beyond);
+
+/**
+ * The feel that is set now. Where force starts, spring, end stops, clicks and notch move to the dial's turn.
+ *
+ * @param servo the loop
+ * @param feel  where it goes
+ */
+palpate_status palpate_servo_feel(palpate_servo *servo, palpate_feel *feel);
 
 /**
  * The dial after the last tick.

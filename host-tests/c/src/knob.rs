@@ -9,7 +9,7 @@ use crate::servo::{Parts, Started, begin, running};
 use crate::status::{Status, code};
 use palpate_core::device::Dial;
 use palpate_core::render::{Detents, DialFriction, Ends, Feel, FeelPart, Notch, Spring, Wave};
-use palpate_core::servo::Knob;
+use palpate_core::servo::{Knob, KnobError, MAX_RETURN_RAD};
 
 /// A dial's radius, and how fast the torque of an old feel decays.
 #[derive(Clone, Copy)]
@@ -102,6 +102,30 @@ pub struct TurnedNumbers {
     pub end: i32,
 }
 
+/// A number of a feel that was refused, beside its limit.
+#[derive(Clone, Copy)]
+#[repr(C)]
+pub struct BeyondNumbers {
+    pub asked: f32,
+    pub limit: f32,
+}
+
+impl BeyondNumbers {
+    /// Zeros for a refusal without a limit of the device.
+    fn of(error: &KnobError) -> Self {
+        let (asked, limit) = match *error {
+            KnobError::Stiffness { asked_n_m_per_rad, limit_n_m_per_rad } => (asked_n_m_per_rad, limit_n_m_per_rad),
+            KnobError::Damping { asked_n_m_s_per_rad, limit_n_m_s_per_rad } => {
+                (asked_n_m_s_per_rad, limit_n_m_s_per_rad)
+            }
+            KnobError::Torque { asked_n_m, limit_n_m } => (asked_n_m, limit_n_m),
+            KnobError::Far { asked_rad } => (asked_rad, MAX_RETURN_RAD),
+            _ => (0.0, 0.0),
+        };
+        Self { asked, limit }
+    }
+}
+
 // SAFETY: floats alone.
 unsafe impl Plain for DialNumbers {}
 // SAFETY: numbers alone.
@@ -122,6 +146,12 @@ fn some<T>(numbers: &[f32], part: T) -> Option<T> {
 }
 
 impl WaveNumbers {
+    const NONE: Self = Self { pitch: 0.0, torque: 0.0, centre: 0.0 };
+
+    fn of(wave: Wave) -> Self {
+        Self { pitch: wave.pitch_rad, torque: wave.torque_n_m, centre: wave.centre_rad }
+    }
+
     fn wave(self) -> Option<Wave> {
         let Self { pitch, torque, centre } = self;
         some(&[pitch, torque, centre], Wave { pitch_rad: pitch, torque_n_m: torque, centre_rad: centre })
@@ -129,6 +159,53 @@ impl WaveNumbers {
 }
 
 impl FeelNumbers {
+    fn of(feel: &Feel) -> Self {
+        const NO_CLICKS: Detents = Detents {
+            pitch: 0.0,
+            stiffness: 0.0,
+            damping: 0.0,
+            snap: 0.0,
+            first: 0,
+            last: 0,
+            wall_stiffness: 0.0,
+            max_force: 0.0,
+        };
+        let Detents { pitch, stiffness, damping, snap, first, last, wall_stiffness, max_force } =
+            feel.clicks.unwrap_or(NO_CLICKS);
+        Self {
+            detents: feel.detents.map_or(WaveNumbers::NONE, WaveNumbers::of),
+            clicks: ClicksNumbers {
+                pitch,
+                stiffness,
+                damping,
+                snap,
+                first,
+                last,
+                wall_stiffness,
+                max_torque: max_force,
+            },
+            texture: feel.texture.map_or(WaveNumbers::NONE, WaveNumbers::of),
+            spring: feel.spring.map_or(SpringNumbers { stiffness: 0.0, rest: 0.0, max_torque: 0.0 }, |spring| {
+                let Spring { stiffness_n_m_per_rad: stiffness, rest_rad: rest, max_torque_n_m: max_torque } = spring;
+                SpringNumbers { stiffness, rest, max_torque }
+            }),
+            ends: feel.ends.map_or(EndsNumbers { between: [0.0; 2], stiffness: 0.0, damping: 0.0 }, |ends| {
+                let Ends { between_rad: between, stiffness_n_m_per_rad: stiffness, damping_n_m_s_per_rad: damping } =
+                    ends;
+                EndsNumbers { between, stiffness, damping }
+            }),
+            damping: feel.damping_n_m_s_per_rad,
+            friction: feel.friction.map_or(DialFrictionNumbers { torque: 0.0, whole_at: 0.0 }, |friction| {
+                DialFrictionNumbers { torque: friction.torque_n_m, whole_at: friction.whole_at_rad_per_s }
+            }),
+            notch: feel.notch.map_or(NotchNumbers { at: 0.0, width: 0.0, torque: 0.0 }, |notch| NotchNumbers {
+                at: notch.at_rad,
+                width: notch.width_rad,
+                torque: notch.torque_n_m,
+            }),
+        }
+    }
+
     fn feel(&self) -> Feel {
         let ClicksNumbers { pitch, stiffness, damping, snap, first, last, wall_stiffness, max_torque } = self.clicks;
         let clicks = Detents { pitch, stiffness, damping, snap, first, last, wall_stiffness, max_force: max_torque };
@@ -248,7 +325,7 @@ pub unsafe extern "C" fn palpate_servo_start_dial_protected(
     code(protected())
 }
 
-/// Sets a part of the feel between two ticks, or changes nothing.
+/// Sets a part of the feel between two ticks, or changes nothing; `beyond` unless null: the number that was refused.
 ///
 /// # Safety
 /// As the header says of all functions.
@@ -257,14 +334,41 @@ pub unsafe extern "C" fn palpate_servo_set_feel(
     servo: *mut Handle<Started>,
     part: u32,
     feel: *const FeelNumbers,
+    beyond: *mut BeyondNumbers,
 ) -> Status {
     let set = || {
+        let wants_numbers = !beyond.is_null();
+        if wants_numbers {
+            checked_mut(beyond)?;
+        }
         // SAFETY: the caller's numbers, and handle, nobody else's.
         let (feel, running) = unsafe { (get(feel)?, running(servo)?) };
         let (knob, state) = running.dial().ok_or(Status::KnobNone)?;
-        Ok(knob.set(state, feel.part(part)?)?)
+        knob.set(state, feel.part(part)?).map_err(|error| {
+            if wants_numbers {
+                // SAFETY: the caller's place for it.
+                let _ = unsafe { put(beyond, BeyondNumbers::of(&error)) };
+            }
+            error.into()
+        })
     };
     code(set())
+}
+
+/// The feel that is set now.
+///
+/// # Safety
+/// As the header says of all functions.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn palpate_servo_feel(servo: *mut Handle<Started>, feel: *mut FeelNumbers) -> Status {
+    let read = || {
+        checked_mut(feel)?;
+        // SAFETY: the caller's handle, nobody else's.
+        let (_, state) = unsafe { running(servo) }?.dial().ok_or(Status::KnobNone)?;
+        // SAFETY: the caller's place for it.
+        unsafe { put(feel, FeelNumbers::of(state.own().unwrap_or(&Feel::FREE))) }
+    };
+    code(read())
 }
 
 /// The dial after the last tick.

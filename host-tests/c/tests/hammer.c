@@ -426,7 +426,7 @@ static void turn(void)
     good("a dial", palpate_servo_start_dial(&dial_servo, sizeof dial_servo, &dial, &motor, &feel, &settings, 0));
     for (int32_t i = 0; i < 400; i++) {
         good("a tick of a dial", palpate_servo_tick(&dial_servo, &i, 1, 1, &output));
-        good("a part of a feel", palpate_servo_set_feel(&dial_servo, any(9), &feel));
+        good("a part of a feel", palpate_servo_set_feel(&dial_servo, any(9), &feel, NULL));
     }
     good("where it is", palpate_servo_dial(&dial_servo, &turned));
 }
@@ -449,15 +449,19 @@ static palpate_status bad_dial(void)
     palpate_dial no_dial = dial;
     palpate_device no_motor = motor;
     palpate_turned turned;
+    palpate_beyond beyond;
     palpate_servo *one = malloc(sizeof *one);
     uint32_t which = any(sizeof bad / sizeof bad[0]);
     memcpy((char *)&none + bad[which].at, &bad[which].number, sizeof(float));
     palpate_status status;
     switch (any(10)) {
-    case 0: status = palpate_servo_set_feel(&dial_servo, bad[which].part, &none); break;
-    case 1: status = palpate_servo_set_feel(&dial_servo, 9 + any(1000), &feel); break;
-    case 2: status = palpate_servo_set_feel(any(2) ? NULL : &servo, 0, &feel); break;
-    case 3: status = palpate_servo_set_feel(&dial_servo, 1, any(2) ? NULL : ASKEW(&none)); break;
+    case 0: status = palpate_servo_set_feel(&dial_servo, bad[which].part, &none, any(2) ? NULL : &beyond); break;
+    case 1: status = palpate_servo_set_feel(&dial_servo, 9 + any(1000), &feel, any(2) ? NULL : ASKEW(&beyond)); break;
+    case 2: status = palpate_servo_set_feel(any(2) ? NULL : &servo, 0, &feel, &beyond); break;
+    case 3:
+        status = any(2) ? palpate_servo_set_feel(&dial_servo, 1, any(2) ? NULL : ASKEW(&none), &beyond)
+                        : palpate_servo_feel(any(2) ? NULL : &servo, any(2) ? &none : ASKEW(&none));
+        break;
     case 4: status = palpate_servo_dial(any(2) ? NULL : &servo, &turned); break;
     case 5: status = palpate_servo_dial(&dial_servo, any(2) ? NULL : ASKEW(&turned)); break;
     default:

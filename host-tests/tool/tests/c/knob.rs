@@ -116,6 +116,37 @@ fn in_words(refused: Result<(), KnobError>) -> &'static str {
     }
 }
 
+/// The number of a refusal and its limit.
+fn beyond(refused: Result<(), KnobError>) -> [f32; 2] {
+    match refused {
+        Err(KnobError::Stiffness { asked_n_m_per_rad: asked, limit_n_m_per_rad: limit })
+        | Err(KnobError::Damping { asked_n_m_s_per_rad: asked, limit_n_m_s_per_rad: limit })
+        | Err(KnobError::Torque { asked_n_m: asked, limit_n_m: limit }) => [asked, limit],
+        Err(KnobError::Far { asked_rad }) => [asked_rad, std::f32::consts::FRAC_PI_4],
+        _ => [0.0; 2],
+    }
+}
+
+/// FNV-1a of the words of the header's structure.
+fn sum_of(feel: &Feel) -> u32 {
+    let wave = |wave: Option<Wave>| wave.map_or([0.0; 3], |wave| [wave.pitch_rad, wave.torque_n_m, wave.centre_rad]);
+    let clicks = feel.clicks.map_or([0; 8], |clicks| {
+        let Detents { pitch, stiffness, damping, snap, first, last, wall_stiffness, max_force } = clicks;
+        let [first, last] = [first, last].map(|number| f32::from_bits(number as u32));
+        [pitch, stiffness, damping, snap, first, last, wall_stiffness, max_force].map(f32::to_bits)
+    });
+    let spring = feel.spring.map_or([0.0; 3], |it| [it.stiffness_n_m_per_rad, it.rest_rad, it.max_torque_n_m]);
+    let ends = feel.ends.map_or([0.0; 4], |it| {
+        [it.between_rad[0], it.between_rad[1], it.stiffness_n_m_per_rad, it.damping_n_m_s_per_rad]
+    });
+    let friction = feel.friction.map_or([0.0; 2], |it| [it.torque_n_m, it.whole_at_rad_per_s]);
+    let notch = feel.notch.map_or([0.0; 3], |it| [it.at_rad, it.width_rad, it.torque_n_m]);
+    let before = wave(feel.detents).map(f32::to_bits).into_iter().chain(clicks);
+    let after = [&wave(feel.texture)[..], &spring, &ends, &[feel.damping_n_m_s_per_rad], &friction, &notch].concat();
+    let words = before.chain(after.into_iter().map(f32::to_bits));
+    words.fold(2_166_136_261, |hash, word| (hash ^ word).wrapping_mul(16_777_619))
+}
+
 #[test]
 fn a_dial_whose_feel_is_changed_at_random_has_the_bits_of_rust_and_makes_no_step() {
     if !is_wanted("a dial in C") {
@@ -182,7 +213,9 @@ fn a_dial_whose_feel_is_changed_at_random_has_the_bits_of_rust_and_makes_no_step
             }
             let said = said.entry(in_words(done)).or_insert(0);
             *said += 1;
-            let _ = writeln!(expected, "{}", in_words(done));
+            let [asked, limit] = beyond(done).map(f32::to_bits);
+            let sum = state.witness().own().map_or(0, sum_of);
+            let _ = writeln!(expected, "{}|{asked:08x} {limit:08x} {sum:08x}", in_words(done));
             stream.push(code);
             stream.extend(words);
         } else {
@@ -224,9 +257,9 @@ fn a_dial_whose_feel_is_changed_at_random_has_the_bits_of_rust_and_makes_no_step
     let mut lines = in_c.lines();
     for (index, expected) in expected.lines().enumerate() {
         let said = lines.next().unwrap_or_default();
-        let same = match expected.split_once(' ') {
-            Some((digits, _)) if digits.parse::<i32>().is_ok() => same_numbers(said, expected),
-            _ => said.starts_with(expected),
+        let same = match expected.split_once('|') {
+            Some((words, numbers)) => said.starts_with(words) && said.ends_with(numbers),
+            None => same_numbers(said, expected),
         };
         assert!(same, "line {index}:\nC    {said}\nRust {expected}");
     }
@@ -246,7 +279,9 @@ int main(void)
     palpate_turned turned;
     palpate_output output;
     palpate_servo_start_dial_protected(&servo, sizeof servo, &dial, &device, &feel, &settings, &protection, 0);
-    palpate_servo_set_feel(&servo, 2, &feel);
+    palpate_servo_set_feel(&servo, 2, &feel, 0);
+    palpate_feel now;
+    palpate_servo_feel(&servo, &now);
     palpate_servo_tick(&servo, &turned.turns, 1, 1, &output);
     return palpate_servo_dial(&servo, &turned);
 }
