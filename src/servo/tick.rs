@@ -4,7 +4,10 @@ use super::sense::{Sensed, sense};
 use super::{
     Event, Fault, Guard, Motion, Output, Phase, SafeOutput, Servo, ServoState, Surface, TableCheck, Tracked as _,
 };
-use crate::device::{Counts, Duty, Homing, HomingInput, HomingProgress, Kinematics, ProbePose, VelocityMethod};
+use crate::device::{
+    Counts, Duty, Encoder, Homing, HomingInput, HomingProgress, Kinematics, Mount, ProbePose, VelocityMethod, Wrist,
+    WristError, WristState,
+};
 use crate::math::Vec3;
 use crate::render::{Moved, Tool, limit};
 use crate::track::{Contact, Probe};
@@ -60,6 +63,35 @@ impl<const JOINTS: usize> Torques<JOINTS> {
 }
 
 impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> Servo<'_, S, K, JOINTS, G> {
+    /// Notes the handle's orientation ([`Event::Oriented`]) from the counts of the arm and of the wrist on it. Call it
+    /// before each tick, with the arm's counts of that tick.
+    ///
+    /// # Errors
+    /// An axis of the wrist out of its range or too fast: nothing is noted. Contact ends once the last orientation is old.
+    pub fn orient(
+        &self,
+        state: &mut ServoState<JOINTS, S::Witness, G::State>,
+        wrist: &Wrist,
+        memory: &mut WristState,
+        arm: [Counts; JOINTS],
+        counts: [Counts; 3],
+    ) -> Result<(), WristError>
+    where
+        K: Mount<JOINTS>,
+    {
+        let zeros = state.angles_at_zero();
+        let angles = core::array::from_fn(|joint| {
+            let encoder = self.core.device.encoders[joint];
+            Encoder { angle_at_zero_rad: zeros[joint], ..encoder }.angle(arm[joint])
+        });
+        // An arm that cannot be closed is a fault of the tick itself.
+        if let Some(link) = self.core.device.kinematics.last_link(angles) {
+            let quaternion = wrist.orientation(memory, link, counts, self.core.period)?;
+            self.note(state, Event::Oriented { quaternion });
+        }
+        Ok(())
+    }
+
     /// Records an event between two ticks. A fault is latched at once and the motors are off when this returns: apply
     /// [`ServoState::output`].
     pub fn note(&self, state: &mut ServoState<JOINTS, S::Witness, G::State>, event: Event) {

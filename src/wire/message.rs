@@ -14,6 +14,15 @@ pub struct Sensors {
     pub enable: bool,
 }
 
+/// To a device with a wrist: its simulated sensors at this tick.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct WristSensors {
+    /// Those of the arm.
+    pub arm: Sensors,
+    /// Encoder counts of the wrist's axes, from the arm to the handle.
+    pub wrist: [i32; 3],
+}
+
 /// From the device, at the end of a tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]

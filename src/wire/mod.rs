@@ -24,5 +24,5 @@ pub use dialogue::{
     Answer, Calibrated, DIALS_HZ, DeviceMessage, Dial, Hello, KeepError, KeptFeel, MODES_HZ, Marked, Modes, PROTOCOL,
     Refused, View,
 };
-pub use message::{HostMessage, Reading, Record, Report, Sensors, hold};
+pub use message::{HostMessage, Reading, Record, Report, Sensors, WristSensors, hold};
 pub use upload::{CHUNK, Upload, UploadError};

@@ -92,6 +92,15 @@ const fn protection() -> Protection<3> {
     }
 }
 
+/// The handle's orientation before a tick, where its counts came.
+#[cfg(feature = "wrist")]
+pub fn orient(state: &mut State, wrist: &mut ([i32; 3], palpate::device::WristState), input: Input<3>) {
+    if let Input::Sensors { counts, .. } = input {
+        // Without an orientation there is no force.
+        let _ = SERVO.orient(state, &settings::WRIST, &mut wrist.1, counts, wrist.0.map(palpate::device::Counts));
+    }
+}
+
 /// One tick of the servo: a function of its own, so that proofs and counts cover the tick and nothing
 /// else.
 #[inline(never)]

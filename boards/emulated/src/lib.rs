@@ -12,24 +12,24 @@
 
 #![no_std]
 
-#[cfg(all(target_arch = "arm", not(feature = "protected")))]
+#[cfg(all(target_arch = "arm", not(any(feature = "protected", feature = "wrist"))))]
 pub mod accepted;
 #[cfg(target_arch = "arm")]
 pub mod arm;
 pub mod board;
 pub mod body;
 pub mod budget;
-#[cfg(not(feature = "protected"))]
+#[cfg(not(any(feature = "protected", feature = "wrist")))]
 pub mod flash;
 #[cfg(feature = "knob")]
 pub mod knob;
 pub mod link;
 pub mod link_semihosting;
 pub mod link_uart;
-#[cfg(not(feature = "protected"))]
+#[cfg(not(any(feature = "protected", feature = "wrist")))]
 pub mod measured;
 pub mod panic;
-#[cfg(not(feature = "protected"))]
+#[cfg(not(any(feature = "protected", feature = "wrist")))]
 pub mod pins;
 mod planted;
 #[cfg(feature = "race")]

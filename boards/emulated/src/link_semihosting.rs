@@ -3,14 +3,11 @@
 //! The emulated clock stands still while the host thinks, so there is no waiting time to bound: a host that does not
 //! answer a tick sends an empty frame, and one that is gone leaves an end of file.
 
-use palpate::wire::{
-    Sensors,
-    frame::{MAX_FRAME, Received, Receiver},
-};
+use palpate::wire::frame::{MAX_FRAME, Received, Receiver};
 use semihosting::fs::{File, OpenOptions};
 use semihosting::io::{Read, Write};
 
-use crate::link::Link;
+use crate::link::{Frame, Link};
 
 /// A read that gives nothing is an end of file, or one that a signal cut short in the emulator; only the end of file
 /// comes this often in a row.
@@ -20,7 +17,7 @@ const EMPTY_READS: u32 = 16;
 pub struct FifoLink {
     to_device: File,
     from_device: File,
-    receiver: Receiver<Sensors>,
+    receiver: Receiver<Frame>,
     /// Bytes read ahead: those from `next` to `end` are still to be taken.
     buffer: [u8; MAX_FRAME],
     next: usize,
@@ -66,7 +63,7 @@ impl FifoLink {
 }
 
 impl Link for FifoLink {
-    fn receive(&mut self) -> Option<Received<Sensors>> {
+    fn receive(&mut self) -> Option<Received<Frame>> {
         // A frame that does not end is damaged already; the bound only keeps a stream of rubbish from holding the loop.
         for _ in 0..16 * MAX_FRAME {
             let byte = self.read()?;

@@ -1,12 +1,9 @@
 //! The board's UART: the real link.
 
 use crate::board::Board;
-use crate::link::Link;
+use crate::link::{Frame, Link};
 pub use crate::processor::Uart;
-use palpate::wire::{
-    Sensors,
-    frame::{Received, Receiver},
-};
+use palpate::wire::frame::{Received, Receiver};
 use palpate_bench::Port;
 
 /// How often the line is looked at before the host is given up for this tick.
@@ -18,7 +15,7 @@ const POLLS: u32 = 4_000_000;
 /// Frames over the UART.
 pub struct UartLink {
     uart: Uart,
-    receiver: Receiver<Sensors>,
+    receiver: Receiver<Frame>,
 }
 
 impl UartLink {
@@ -29,7 +26,7 @@ impl UartLink {
 }
 
 impl Link for UartLink {
-    fn receive(&mut self) -> Option<Received<Sensors>> {
+    fn receive(&mut self) -> Option<Received<Frame>> {
         for _ in 0..POLLS {
             let Some(byte) = self.uart.receive() else { continue };
             let received = self.receiver.feed(byte);

@@ -2,12 +2,12 @@
 
 use palpate::device::Counts;
 use palpate::servo::{Deadline, Event, Input};
+use palpate::wire::Report;
 use palpate::wire::frame::{self, MAX_FRAME, Received};
-use palpate::wire::{Report, Sensors};
 
 use crate::board::Board;
 use crate::body::{self, SERVO, SETTINGS, State};
-use crate::link::Link;
+use crate::link::{Frame, Link};
 use crate::timer::{CHIP_INSTRUCTIONS_PER_SECOND, InstructionCounter};
 
 /// Ticks in a row without any frame after which the host is taken for gone and the emulator ends, so that none is left
@@ -25,6 +25,9 @@ const DEADLINE: Deadline = Deadline::of_period(CHIP_INSTRUCTIONS_PER_SECOND as f
 pub struct ServoLoop<L> {
     link: L,
     state: State,
+    /// The last counts of the wrist, and its angles.
+    #[cfg(feature = "wrist")]
+    wrist: ([i32; 3], palpate::device::WristState),
     counter: InstructionCounter,
     silent_ticks: u32,
 }
@@ -32,14 +35,27 @@ pub struct ServoLoop<L> {
 impl<L: Link> ServoLoop<L> {
     /// A loop before its first tick.
     pub fn new(board: &Board, link: L, counter: InstructionCounter) -> Self {
-        Self { link, state: SERVO.start_after(board.reset_reason()), counter, silent_ticks: 0 }
+        Self {
+            link,
+            state: SERVO.start_after(board.reset_reason()),
+            #[cfg(feature = "wrist")]
+            wrist: Default::default(),
+            counter,
+            silent_ticks: 0,
+        }
     }
 
     /// One tick.
     pub fn tick(&mut self) {
         let input = self.input();
         let state = &mut self.state;
-        let ((), instructions) = self.counter.count(|| body::tick(state, input));
+        #[cfg(feature = "wrist")]
+        let wrist = &mut self.wrist;
+        let ((), instructions) = self.counter.count(|| {
+            #[cfg(feature = "wrist")]
+            body::orient(state, wrist, input);
+            body::tick(state, input);
+        });
         // A real board applies the tick's output here, before anything else.
         if DEADLINE.overrun(0, instructions) {
             // After a fault the output is another: off.
@@ -69,8 +85,8 @@ impl<L: Link> ServoLoop<L> {
                 SERVO.note(&mut self.state, Event::LinkAlive);
             }
             match received {
-                Some(Received::Message(sensors)) if sensors.tick == self.state.ticks() => {
-                    return if late { Input::Lost } else { input_of(sensors) };
+                Some(Received::Message(frame)) if tick_of(&frame) == self.state.ticks() => {
+                    return if late { Input::Lost } else { self.input_of(frame) };
                 }
                 // The frame of another tick counts as lost. Reading on finds the right one behind it, else every later
                 // one would be late too.
@@ -81,8 +97,19 @@ impl<L: Link> ServoLoop<L> {
         }
         Input::Lost
     }
+
+    fn input_of(&mut self, frame: Frame) -> Input<3> {
+        #[cfg(feature = "wrist")]
+        let frame = {
+            self.wrist.0 = frame.wrist;
+            frame.arm
+        };
+        Input::Sensors { counts: frame.counts.map(Counts), enable: frame.enable }
+    }
 }
 
-fn input_of(sensors: Sensors) -> Input<3> {
-    Input::Sensors { counts: sensors.counts.map(Counts), enable: sensors.enable }
+const fn tick_of(frame: &Frame) -> u32 {
+    #[cfg(feature = "wrist")]
+    let frame = &frame.arm;
+    frame.tick
 }

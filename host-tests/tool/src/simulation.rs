@@ -1,27 +1,30 @@
 //! The closed loop: a servo loop at one end of a link, the simulated device and hand at the other, in lockstep.
 
+use crate::commands::shaped::{GIMBAL, ShapedTool};
 use crate::firmware::{Link, LinkError};
-use palpate::device::{Counts, Kinematics};
+use palpate::device::{Counts, Kinematics, Mount, WristState};
 use palpate::servo::{Event, Guard, Input, Servo, ServoState, Surface, Unguarded};
 use palpate::wire::frame::{Received, Receiver};
-use palpate::wire::{Report, Sensors};
+use palpate::wire::{Report, Sensors, WristSensors};
 use palpate_sim::plant::Plant;
+use serde::de::DeserializeOwned;
 use std::time::Duration;
 
 /// The servo loop compiled for the host, behind the same link as the firmware: the frames and the way from a frame to
 /// an input are those of the board.
-pub struct HostLoop<'a, S: Surface, K, G: Guard<3> = Unguarded> {
+pub struct HostLoop<'a, S: Surface, K, G: Guard<3> = Unguarded, F = Sensors> {
     servo: Servo<'a, S, K, 3, G>,
     state: ServoState<3, S::Witness, G::State>,
-    receiver: Receiver<Sensors>,
+    receiver: Receiver<F>,
+    wrist: WristState,
     report: Option<Report>,
 }
 
-impl<'a, S: Surface, K: Kinematics<3>, G: Guard<3>> HostLoop<'a, S, K, G> {
+impl<'a, S: Surface, K: Kinematics<3>, G: Guard<3>, F: Frame> HostLoop<'a, S, K, G, F> {
     /// A loop in its state before the first tick.
     pub fn new(servo: Servo<'a, S, K, 3, G>) -> Self {
         let state = servo.start();
-        Self { servo, state, receiver: Receiver::new(), report: None }
+        Self { servo, state, receiver: Receiver::new(), wrist: WristState::default(), report: None }
     }
 
     fn tick(&mut self, input: Input<3>) {
@@ -30,7 +33,7 @@ impl<'a, S: Surface, K: Kinematics<3>, G: Guard<3>> HostLoop<'a, S, K, G> {
     }
 }
 
-impl<S: Surface, K: Kinematics<3>, G: Guard<3>> Link for HostLoop<'_, S, K, G> {
+impl<S: Surface, K: Kinematics<3>, G: Guard<3>, F: FrameTo<K>> Link for HostLoop<'_, S, K, G, F> {
     fn send_bytes(&mut self, bytes: &[u8]) -> Result<(), LinkError> {
         for byte in bytes {
             let received = self.receiver.feed(*byte);
@@ -38,7 +41,9 @@ impl<S: Surface, K: Kinematics<3>, G: Guard<3>> Link for HostLoop<'_, S, K, G> {
                 self.servo.note(&mut self.state, Event::LinkAlive);
             }
             match received {
-                Some(Received::Message(sensors)) if sensors.tick == self.state.ticks() => {
+                Some(Received::Message(frame)) if frame.arm().tick == self.state.ticks() => {
+                    frame.orient(&self.servo, &mut self.state, &mut self.wrist);
+                    let sensors = frame.arm();
                     self.tick(Input::Sensors { counts: sensors.counts.map(Counts), enable: sensors.enable });
                 }
                 Some(Received::Message(_) | Received::Empty) => self.tick(Input::Lost),
@@ -56,6 +61,57 @@ impl<S: Surface, K: Kinematics<3>, G: Guard<3>> Link for HostLoop<'_, S, K, G> {
 
     fn receive(&mut self) -> Result<Report, LinkError> {
         self.report.take().ok_or(LinkError::Silent(Duration::ZERO))
+    }
+}
+
+/// A frame of sensors.
+pub trait Frame: DeserializeOwned {
+    /// Those of the arm.
+    fn arm(&self) -> Sensors;
+}
+
+/// A frame for a loop on such a mechanism.
+pub trait FrameTo<K>: Frame {
+    /// Notes the handle's orientation, where the frame has the counts of a wrist.
+    fn orient<S: Surface, G: Guard<3>>(
+        &self,
+        servo: &Servo<'_, S, K, 3, G>,
+        state: &mut ServoState<3, S::Witness, G::State>,
+        wrist: &mut WristState,
+    );
+}
+
+impl Frame for Sensors {
+    fn arm(&self) -> Sensors {
+        *self
+    }
+}
+
+impl<K> FrameTo<K> for Sensors {
+    fn orient<S: Surface, G: Guard<3>>(
+        &self,
+        _: &Servo<'_, S, K, 3, G>,
+        _: &mut ServoState<3, S::Witness, G::State>,
+        _: &mut WristState,
+    ) {
+    }
+}
+
+impl Frame for WristSensors {
+    fn arm(&self) -> Sensors {
+        self.arm
+    }
+}
+
+impl<K: Mount<3>> FrameTo<K> for WristSensors {
+    fn orient<S: Surface, G: Guard<3>>(
+        &self,
+        servo: &Servo<'_, S, K, 3, G>,
+        state: &mut ServoState<3, S::Witness, G::State>,
+        wrist: &mut WristState,
+    ) {
+        // As the board does: without an orientation there is no force.
+        let _ = servo.orient(state, &GIMBAL, wrist, self.arm.counts.map(Counts), self.wrist.map(Counts));
     }
 }
 
@@ -81,24 +137,38 @@ pub struct Trace {
     pub samples: Vec<Sample>,
 }
 
-/// Runs `ticks` ticks of a loop against a plant. Force is requested from tick `enable_at` on; before it the witness
-/// point converges in standby. `progress` receives the number of each finished tick.
+/// How long a run is, and how the hand turns the tool.
+#[derive(Clone, Copy, Debug)]
+pub struct Span {
+    /// Servo rate, Hz.
+    pub rate: f64,
+    /// Ticks to run.
+    pub ticks: u32,
+    /// The tick from which on force is requested; before it the witness point converges in standby.
+    pub enable_at: u32,
+    /// A tool with a shape: the loop then takes a wrist's counts too.
+    pub tool: Option<ShapedTool>,
+}
+
+/// Runs a loop against a plant. `progress` receives the number of each finished tick.
 ///
 /// # Errors
 /// An error of the link.
 pub fn run(
     link: &mut dyn Link,
     plant: &mut Plant,
-    rate: f64,
-    ticks: u32,
-    enable_at: u32,
+    span: Span,
     mut progress: impl FnMut(u32),
 ) -> Result<Trace, LinkError> {
+    let Span { rate, ticks, enable_at, tool } = span;
     let mut samples = Vec::with_capacity(ticks as usize);
     for tick in 0..ticks {
         let sensors = Sensors { tick, counts: plant.counts(), enable: tick >= enable_at };
         let (time, probe) = (plant.time(), plant.position());
-        let report = link.exchange(&sensors)?;
+        let report = match tool {
+            None => link.exchange(&sensors)?,
+            Some(tool) => link.exchange_with_wrist(&WristSensors { arm: sensors, wrist: tool.counts(time) })?,
+        };
         samples.push(Sample { time, sensors, report, probe });
         plant.advance(report.duties);
         progress(tick + 1);

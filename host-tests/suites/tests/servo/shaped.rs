@@ -4,7 +4,7 @@
 use glam::{DQuat, DVec3};
 use palpate::body::Body;
 use palpate::device::presets::WOODEN_HAPTICS_2016 as DEVICE;
-use palpate::device::{Counts, Encoder, Mount as _, SerialArm, Wrist, WristState};
+use palpate::device::{Counts, Encoder, SerialArm, Wrist, WristState};
 use palpate::math::Vec3;
 use palpate::pair::{Core, ProxyError, Tool, ToolSurface};
 use palpate::render::Friction;
@@ -81,13 +81,10 @@ impl HandPath for Presses {
 
 /// What one tick's sensors say.
 fn sense(servo: &Loop, state: &mut State, wrist: &mut WristState, counts: [Counts; 3], turned: [f64; 3]) {
-    let angles = core::array::from_fn(|joint| DEVICE.encoders[joint].angle(counts[joint]));
-    let link = DEVICE.kinematics.last_link(angles).expect("within reach");
     let gimbal = turned.map(|angle| Counts((angle * 4_096.0 / TAU).floor() as i32));
-    let quaternion = GIMBAL.orientation(wrist, link, gimbal, 1.0 / RATE as f32).expect("a hand turns no faster");
     servo.note(state, Event::LinkAlive);
     servo.note(state, Event::Homed);
-    servo.note(state, Event::Oriented { quaternion });
+    servo.orient(state, &GIMBAL, wrist, counts, gimbal).expect("a hand turns no faster");
 }
 
 #[test]

@@ -150,7 +150,14 @@ pub(super) fn write_tables(board: Board, scene: &Scene) -> anyhow::Result<(tempf
     fs::write(folder.path().join("body.rs"), scene.source()?)?;
     fs::write(folder.path().join("settings.rs"), scene.settings_source())?;
     let [body, settings] = ["body.rs", "settings.rs"].map(|name| Some(folder.path().join(name)));
-    let choice = Choice { board, body, settings, protected: scene.protection.is_some(), ..Choice::default() };
+    let choice = Choice {
+        board,
+        body,
+        settings,
+        protected: scene.protection.is_some(),
+        wrist: scene.tool.is_some(),
+        ..Choice::default()
+    };
     Ok((folder, choice))
 }
 
@@ -162,8 +169,7 @@ fn run_firmware(arguments: &Arguments, scene: &Scene, firmware: &Firmware) -> an
     let mut plant = arguments.scene.plant(scene)?;
     let mut emulator = firmware.start(transport)?;
     let bar = progress::ticks(scene.ticks);
-    let rate = f64::from(scene.settings.rate_hz);
-    let trace = simulation::run(&mut emulator, &mut plant, rate, scene.ticks, scene.enable_at, |done| bar.tell(done))?;
+    let trace = simulation::run(&mut emulator, &mut plant, scene.span(), |done| bar.tell(done))?;
     drop(bar);
     // As a device would carry it: files of the host are the emulator's.
     let image = firmware.images.of(Transport::Uart);

@@ -5,7 +5,7 @@ use super::options::SceneOptions;
 use crate::firmware::{Board, Emulator, Program, Progress};
 use crate::monitor::{Figures, Monitor, Table};
 use crate::simulation;
-use anyhow::{Context, bail};
+use anyhow::{Context, bail, ensure};
 use clap::{Args, ValueEnum};
 use palpate::wire::frame::{self, MAX_FRAME};
 use palpate::wire::{HostMessage, PROTOCOL};
@@ -107,19 +107,20 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
 /// The emulated board in closed loop with the simulated device, one servo period of it in one of ours.
 fn watch_emulator(arguments: &Arguments, board: Board, view: &mut View) -> anyhow::Result<()> {
     let scene = arguments.scene.scene()?;
+    ensure!(scene.tool.is_none(), "--tool: monitor shows a point's loop; see demo --tool");
     let (_folder, choice) = write_tables(board, &scene)?;
     let program = Program::prepare_with(&choice, "telemetry", &[], &Progress::new())?;
     let (mut emulator, mut line) = program.start_with_telemetry()?;
     line.set_read_timeout(Some(PATIENCE))?;
     let mut plant = arguments.scene.plant(&scene)?;
-    let (rate, ticks, enable_at) = (f64::from(scene.settings.rate_hz), scene.ticks, scene.enable_at);
+    let span = scene.span();
     let driver = std::thread::spawn(move || {
         let start = Instant::now();
         let pace = |done: u32| {
-            let due = Duration::from_secs_f64(f64::from(done) / rate);
+            let due = Duration::from_secs_f64(f64::from(done) / span.rate);
             std::thread::sleep(due.saturating_sub(start.elapsed()));
         };
-        let outcome = simulation::run(&mut emulator, &mut plant, rate, ticks, enable_at, pace);
+        let outcome = simulation::run(&mut emulator, &mut plant, span, pace);
         // The line closes with it, and the watching ends.
         drop::<Emulator>(emulator);
         outcome.map(drop)

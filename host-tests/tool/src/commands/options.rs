@@ -2,18 +2,20 @@
 
 use super::felt::Felt;
 use super::felt_scene::FeltScene;
+use super::shaped::{self, CoreOf, ShapedTool};
 use super::smoothing::Smoothing;
 use crate::devices::{self, Chosen, Preset, ShippedDevice};
 use crate::firmware::Link;
 use crate::models::ModelFile;
 use crate::page::{Cut, Loop, RecordedBody, Recording};
-use crate::simulation::{HostLoop, Trace};
+use crate::simulation::{HostLoop, Span, Trace};
 use anyhow::{Context, anyhow, bail, ensure};
 use clap::Args;
 use glam::DVec3;
-use palpate::device::{Device, Kinematics, Protection};
+use palpate::device::{Device, Kinematics, Mount, Protection};
 use palpate::scene::Limits;
 use palpate::servo::{Config, Safety, Servo, Settings, Surface};
+use palpate::wire::WristSensors;
 use palpate_bake::source::Origin;
 use palpate_bake::{BakedBody, Model, NurbsPatch};
 use palpate_sim::plant::{HandSettings, PathError, Plant, TouchingPath};
@@ -76,6 +78,15 @@ pub struct SceneOptions {
     /// Origin of the model in the workspace: x,y,z in mm from its centre; default: the model is centred
     #[arg(long, value_name = "X,Y,Z", value_parser = millimetres, allow_hyphen_values = true)]
     pub at: Option<DVec3>,
+    /// Tool with a shape on a gimbal: point, capsule, segment:H along z or box:X,Y,Z (half lengths, mm)
+    #[arg(long, value_parser = shaped::core)]
+    pub tool: Option<CoreOf>,
+    /// Radius of the ball around the tool's core, mm
+    #[arg(long, requires = "tool", default_value_t = 3.0)]
+    pub radius: f32,
+    /// Maximum speed at which the hand turns the tool, rad/s
+    #[arg(long, requires = "tool", default_value_t = 1.5)]
+    pub turn: f64,
 }
 
 /// A point from `x,y,z` in mm, as metres.
@@ -104,6 +115,8 @@ pub struct Scene {
     pub rendering: Smoothing,
     /// The device's protection, if it was requested.
     pub protection: Option<Protection<3>>,
+    /// The tool, if it has a shape.
+    pub tool: Option<ShapedTool>,
     /// Ticks to run.
     pub ticks: u32,
     /// The tick at which force is asked for: the witness point has converged by then.
@@ -155,7 +168,12 @@ impl SceneOptions {
             .with_context(|| format!("{}: up to {} N/m and {} N·s/m", device.name, limits.stiffness, limits.damping))?;
         let [ticks, enable_at] = self.ticks(settings.rate_hz)?;
         let protection = self.protected.then(|| device.protection());
-        Ok(Scene { file, centre, felt, device, settings, rendering: self.rendering, protection, ticks, enable_at })
+        let tool = self.tool.map(|core| ShapedTool::new(core, self.radius, self.turn)).transpose()?;
+        if tool.is_some() {
+            shaped::body_of(&felt)?;
+        }
+        let rendering = self.rendering;
+        Ok(Scene { file, centre, felt, device, settings, rendering, protection, tool, ticks, enable_at })
     }
 
     /// How many ticks to run at a rate, Hz, and at which of them force is asked for.
@@ -185,9 +203,10 @@ impl SceneOptions {
     pub fn plant(&self, scene: &Scene) -> anyhow::Result<Plant> {
         let places = scene.felt.places();
         let origin = scene.settings.body_origin_m.as_dvec3();
+        let stand_off = scene.tool.map_or(0.0, |tool| tool.stand_off_m());
         let point_and_normal = move |u, v| {
             let (point, normal) = places(u, v);
-            ((point + origin).to_array(), normal.to_array())
+            ((point + normal * stand_off + origin).to_array(), normal.to_array())
         };
         // Where the surface is larger than the workspace, it keeps to the middle of the surface.
         let (mechanism, preset) = (scene.device.plant.mechanism(0.0), scene.device.preset);
@@ -222,7 +241,17 @@ impl Scene {
         }
     }
 
-    fn host_loop_of<K: Kinematics<3>>(&self, device: &'static Device<K, 3>) -> anyhow::Result<Box<dyn Link>> {
+    fn host_loop_of<K: Mount<3>>(&self, device: &'static Device<K, 3>) -> anyhow::Result<Box<dyn Link>> {
+        if let Some(tool) = self.tool {
+            let surface = tool.on(shaped::body_of(&self.felt)?, &self.settings)?;
+            let config = self.config();
+            return Ok(match self.protection {
+                None => Box::new(HostLoop::<_, _, _, WristSensors>::new(Servo::try_new(device, surface, config)?)),
+                Some(protection) => Box::new(HostLoop::<_, _, _, WristSensors>::new(Servo::try_protected(
+                    device, surface, protection, config,
+                )?)),
+            });
+        }
         match &self.felt {
             Felt::Patch { patch, .. } => self.host_loop_on(device, *patch),
             Felt::Body { body, soft: Some(soft), .. } => {
@@ -259,12 +288,24 @@ impl Scene {
         device: &'static Device<K, 3>,
         surface: &'static S,
     ) -> anyhow::Result<Box<dyn Link>> {
-        let rendering = self.rendering.rendering();
-        let config = Config { settings: self.settings, rendering, safety: SAFETY, ..Config::DEFAULT };
+        let config = self.config();
         Ok(match self.protection {
-            None => Box::new(HostLoop::new(Servo::try_new(device, surface, config)?)),
-            Some(protection) => Box::new(HostLoop::new(Servo::try_protected(device, surface, protection, config)?)),
+            None => Box::new(HostLoop::<_, _>::new(Servo::try_new(device, surface, config)?)),
+            Some(protection) => {
+                Box::new(HostLoop::<_, _, _>::new(Servo::try_protected(device, surface, protection, config)?))
+            }
         })
+    }
+
+    fn config(&self) -> Config<3> {
+        let rendering = self.rendering.rendering();
+        Config { settings: self.settings, rendering, safety: SAFETY, ..Config::DEFAULT }
+    }
+
+    /// How long it runs, and how the hand turns the tool.
+    pub fn span(&self) -> Span {
+        let rate = f64::from(self.settings.rate_hz);
+        Span { rate, ticks: self.ticks, enable_at: self.enable_at, tool: self.tool }
     }
 
     /// A run of the scene as the page for the browser takes it.
@@ -272,6 +313,9 @@ impl Scene {
     /// # Errors
     /// Why the page could not feel it.
     pub fn recording(&self, trace: &Trace, on: &str) -> anyhow::Result<Recording> {
+        if self.tool.is_some() {
+            return Err(Cut::Tool.into());
+        }
         let (bodies, scene) = match &self.felt {
             Felt::Scene(scene) if scene.is_soft() => return Err(Cut::Soft.into()),
             Felt::Scene(scene) => scene.recorded(self.limits())?,
@@ -331,7 +375,8 @@ impl Scene {
     pub fn source(&self) -> anyhow::Result<String> {
         // What would not compile is said here.
         self.host_loop()?;
-        self.felt.source(&self.origin(), self.limits(), self.settings.rate_hz)
+        let body = self.felt.source(&self.origin(), self.limits(), self.settings.rate_hz)?;
+        Ok(self.tool.map_or_else(|| body.clone(), |tool| tool.source(&body, &self.settings)))
     }
 
     /// The middle of the model's box in the frame of its tables, and how far beyond it the path of an image that counts
@@ -357,7 +402,8 @@ impl Scene {
     pub fn wall(&self) -> String {
         let Settings { stiffness_n_per_m, damping_n_s_per_m, max_force_n, .. } = self.settings;
         let name = self.rendering.name();
-        format!("{stiffness_n_per_m} N/m, {damping_n_s_per_m} N·s/m, {max_force_n} N at most, {name}")
+        let tool = self.tool.map_or_else(String::new, |tool| format!("; {}", tool.name()));
+        format!("{stiffness_n_per_m} N/m, {damping_n_s_per_m} N·s/m, {max_force_n} N at most, {name}{tool}")
     }
 
     /// The model file's name, without its directory.
@@ -392,8 +438,9 @@ impl Scene {
              pub const WIRING: palpate::commission::Wiring<3> = palpate::commission::Wiring::STRAIGHT;"
         );
         let constants = self.device.constants.map_or(shipped.as_str(), |(source, _)| source);
+        let wrist = self.tool.map_or_else(String::new, |_| shaped::wrist_source());
         format!(
-            "{constants}\n/// The loop's settings.\npub const SETTINGS: palpate::servo::Settings = palpate::servo::Settings {{\n    \
+            "{constants}\n{wrist}/// The loop's settings.\npub const SETTINGS: palpate::servo::Settings = palpate::servo::Settings {{\n    \
              rate_hz: {rate:?},\n    stiffness_n_per_m: {stiffness:?},\n    damping_n_s_per_m: {damping:?},\n    \
              max_force_n: {max_force:?},\n    velocity_corner_hz: {velocity_corner:?},\n    \
              soft_start_s: {soft_start:?},\n    body_origin_m: palpate::math::vec3({x:?}, {y:?}, {z:?}),\n}};\n/// Its limits.\n\

@@ -60,9 +60,7 @@ pub fn run_on_host(options: &SceneOptions, scene: &Scene) -> anyhow::Result<Trac
     let mut plant = options.plant(scene)?;
     let mut servo = scene.host_loop()?;
     let bar = progress::ticks(scene.ticks);
-    let rate = f64::from(scene.settings.rate_hz);
-    let trace = simulation::run(servo.as_mut(), &mut plant, rate, scene.ticks, scene.enable_at, |done| bar.tell(done))?;
-    Ok(trace)
+    Ok(simulation::run(servo.as_mut(), &mut plant, scene.span(), |done| bar.tell(done))?)
 }
 
 /// One row a tick; SI units, the probe in the model's own frame; last the names of device and model.

@@ -22,6 +22,8 @@ pub struct Choice {
     pub settings: Option<PathBuf>,
     /// With all protection of the device.
     pub protected: bool,
+    /// The tool has a shape, and the frames a wrist's counts.
+    pub wrist: bool,
 }
 
 /// An image and its sizes.
@@ -142,6 +144,9 @@ fn cargo_build(toolchain: &Toolchain, choice: &Choice) -> Result<Command, SetUpE
         .arg(choice.target_folder(toolchain)?);
     if choice.protected {
         cargo.args(["--features", "protected"]);
+    }
+    if choice.wrist {
+        cargo.args(["--features", "wrist"]);
     }
     // The log's levels are chosen when it is compiled.
     cargo.env("DEFMT_LOG", "info");

@@ -1,7 +1,7 @@
 //! The host's side of the link: sensors to the device, reports back.
 
 use palpate::wire::frame::{self, MAX_FRAME};
-use palpate::wire::{Report, Sensors};
+use palpate::wire::{Report, Sensors, WristSensors};
 use std::io;
 use std::time::Duration;
 use thiserror::Error;
@@ -66,16 +66,27 @@ pub trait Link {
         self.send_bytes(frame)
     }
 
+    /// One tick of a device with a wrist.
+    ///
+    /// # Errors
+    /// If there is no such report.
+    fn exchange_with_wrist(&mut self, sensors: &WristSensors) -> Result<Report, LinkError> {
+        let mut buffer = [0; MAX_FRAME];
+        let frame = frame::pack(sensors, &mut buffer).map_err(io::Error::other)?;
+        self.send_bytes(frame)?;
+        of_tick(sensors.arm.tick, self.receive()?)
+    }
+
     /// One tick: sensors out, report back, of the same tick.
     ///
     /// # Errors
     /// If there is no such report.
     fn exchange(&mut self, sensors: &Sensors) -> Result<Report, LinkError> {
         self.send(sensors)?;
-        let report = self.receive()?;
-        if report.tick == sensors.tick {
-            return Ok(report);
-        }
-        Err(LinkError::OutOfStep { expected: sensors.tick, reported: report.tick })
+        of_tick(sensors.tick, self.receive()?)
     }
+}
+
+fn of_tick(expected: u32, report: Report) -> Result<Report, LinkError> {
+    if report.tick == expected { Ok(report) } else { Err(LinkError::OutOfStep { expected, reported: report.tick }) }
 }

@@ -99,6 +99,9 @@ pub enum Cut {
     /// The run rendered a body that deforms, which the page has none of.
     #[error("a body that deforms is not recorded: the page shows rigid ones")]
     Soft,
+    /// The run's tool had a shape, which the page has none of.
+    #[error("a tool with a shape is not recorded: the page touches with a point")]
+    Tool,
 }
 
 /// How the loop of a run was set.

@@ -19,7 +19,7 @@ struct Demo {
 
 fn trace(options: &SceneOptions, scene: &Scene, link: &mut dyn Link) -> Trace {
     let mut plant = options.plant(scene).expect("the plant starts");
-    run(link, &mut plant, f64::from(scene.settings.rate_hz), scene.ticks, scene.enable_at, |_| ()).expect("a whole run")
+    run(link, &mut plant, scene.span(), |_| ()).expect("a whole run")
 }
 
 /// The functions of an image that have a branch to a panic, by the disassembler's word.

@@ -19,8 +19,7 @@ struct Demo {
 
 fn trace(options: &SceneOptions, scene: &Scene, link: &mut dyn Link) -> Trace {
     let mut plant = options.plant(scene).expect("the plant starts");
-    run(link, &mut plant, f64::from(scene.settings.rate_hz), scene.ticks, scene.enable_at, |_| ())
-        .expect("no frame is lost")
+    run(link, &mut plant, scene.span(), |_| ()).expect("no frame is lost")
 }
 
 /// The firmware's trace and the host's of a scene from the command line, the same in every bit of every tick.
@@ -82,6 +81,19 @@ fn a_scene_that_moves_is_felt_alike_on_the_host_and_every_board() {
         assert!(there.touches > 0 && there.fault.is_none(), "{board:?}: {there}");
         println!("{board:?}: {:?}", there.rows());
     }
+}
+
+/// A capsule on a gimbal. Its worst tick takes more instructions than the board has at 2 kHz.
+#[test]
+fn a_tool_with_a_shape_touches_alike_on_host_and_board() {
+    if !is_wanted("a tool with a shape on the emulated board") {
+        return;
+    }
+    let arguments = ["demo", "--tool", "capsule", "--rate", "1000", "--seconds", "2"];
+    let [board, _] = traces(&arguments).map(|trace| Summary::new(&trace));
+    assert!(board.touches > 1 && board.contact_time > 0.5 && board.fault.is_none(), "{board}");
+    assert!(board.largest_force > 0.5 && board.frames_lost == 0, "{board}");
+    println!("{:?}", board.rows());
 }
 
 /// The rates at which a part from CAD is tried, from the first on, with the fault of each, and the last run's figures.
