@@ -28,6 +28,7 @@ pub mod race;
 pub mod reach;
 pub mod report;
 pub mod repository;
+pub mod shaped;
 pub mod simulation;
 pub mod spread;
 pub mod talk;

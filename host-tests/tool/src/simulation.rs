@@ -1,7 +1,7 @@
 //! The closed loop: a servo loop at one end of a link, the simulated device and hand at the other, in lockstep.
 
-use crate::commands::shaped::{GIMBAL, ShapedTool};
 use crate::firmware::{Link, LinkError};
+use crate::shaped::{GIMBAL, ShapedTool};
 use palpate::device::{Counts, Kinematics, Mount, WristState};
 use palpate::servo::{Event, Guard, Input, Servo, ServoState, Surface, Unguarded};
 use palpate::wire::frame::{Received, Receiver};

@@ -182,6 +182,17 @@ impl Felt {
         rates.iter().map(wall).collect()
     }
 
+    /// The body that a tool with a shape touches.
+    ///
+    /// # Errors
+    /// A surface that is no rigid body.
+    pub fn rigid_body(&self) -> anyhow::Result<&'static Body<'static>> {
+        match self {
+            Self::Body { body, soft: None, .. } => Ok(body),
+            _ => anyhow::bail!("--tool touches rigid bodies: no single patch (--patch), no scene and no --modes"),
+        }
+    }
+
     /// Its name.
     pub fn name(&self) -> &str {
         match self {

@@ -30,7 +30,6 @@ pub mod parts;
 pub mod progress;
 pub mod race;
 pub mod rate;
-pub mod shaped;
 pub mod sim;
 mod smoothing;
 mod soft;

@@ -2,12 +2,12 @@
 
 use super::felt::Felt;
 use super::felt_scene::FeltScene;
-use super::shaped::{self, CoreOf, ShapedTool};
 use super::smoothing::Smoothing;
 use crate::devices::{self, Chosen, Preset, ShippedDevice};
 use crate::firmware::Link;
 use crate::models::ModelFile;
 use crate::page::{Cut, Loop, RecordedBody, Recording};
+use crate::shaped::{self, CoreOf, ShapedTool};
 use crate::simulation::{HostLoop, Span, Trace};
 use anyhow::{Context, anyhow, bail, ensure};
 use clap::Args;
@@ -170,7 +170,7 @@ impl SceneOptions {
         let protection = self.protected.then(|| device.protection());
         let tool = self.tool.map(|core| ShapedTool::new(core, self.radius, self.turn)).transpose()?;
         if tool.is_some() {
-            shaped::body_of(&felt)?;
+            felt.rigid_body()?;
         }
         let rendering = self.rendering;
         Ok(Scene { file, centre, felt, device, settings, rendering, protection, tool, ticks, enable_at })
@@ -243,7 +243,7 @@ impl Scene {
 
     fn host_loop_of<K: Mount<3>>(&self, device: &'static Device<K, 3>) -> anyhow::Result<Box<dyn Link>> {
         if let Some(tool) = self.tool {
-            let surface = tool.on(shaped::body_of(&self.felt)?, &self.settings)?;
+            let surface = tool.on(self.felt.rigid_body()?, &self.settings)?;
             let config = self.config();
             return Ok(match self.protection {
                 None => Box::new(HostLoop::<_, _, _, WristSensors>::new(Servo::try_new(device, surface, config)?)),

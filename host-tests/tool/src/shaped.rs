@@ -1,6 +1,6 @@
 //! A tool with a shape on a simulated gimbal, that the hand of a run turns.
 
-use anyhow::{Context as _, bail, ensure};
+use anyhow::{Context as _, ensure};
 use glam::Vec3 as Axis;
 use palpate::body::Body;
 use palpate::device::{Encoder, Wrist};
@@ -161,17 +161,6 @@ pub fn wrist_source() -> String {
         "/// The gimbal under the handle.\npub const WRIST: palpate::device::Wrist = palpate::device::Wrist {{ axes: [{axes}], \
          encoders: [{encoders}], range_rad: {range_rad:?}, max_rate_rad_per_s: {max_rate_rad_per_s:?} }};\n"
     )
-}
-
-/// The body that a tool touches.
-///
-/// # Errors
-/// A surface that is no rigid body.
-pub fn body_of(felt: &super::felt::Felt) -> anyhow::Result<&'static Body<'static>> {
-    match felt {
-        super::felt::Felt::Body { body, soft: None, .. } => Ok(body),
-        _ => bail!("--tool touches rigid bodies: no single patch (--patch), no scene and no --modes"),
-    }
 }
 
 #[cfg(test)]
