@@ -151,7 +151,7 @@ impl<D: Displacement> Body<'_, D> {
         while search.found().is_none() && left > 0 {
             left -= 1;
             step.evaluations += 1;
-            search.advance(self, probe);
+            search.advance::<D, false>(self, probe);
         }
         // The point that was found takes an evaluation too.
         let Some(found) = search.found().filter(|_| left > 0) else { return steps_too };
@@ -216,7 +216,7 @@ impl<D: Displacement> Body<'_, D> {
             }
             left -= 1;
             step.evaluations += 1;
-            let progress = self.search_on(&mut audit.descending, audit.asked, 0.5 * far * far);
+            let progress = self.search_on::<false>(&mut audit.descending, audit.asked, 0.5 * far * far);
             let CandidateSearch { candidate: Candidate { face, .. }, parameters, half_squared, at_least, .. } =
                 audit.descending;
             let falls = progress == Some(CandidateStatus::Falling);

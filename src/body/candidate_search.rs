@@ -90,11 +90,12 @@ impl CandidateSearch {
     /// One evaluation, and the choice of the next parameters. `known` is the `φ` to beat, m²; `size` is the body's,
     /// metres; `poles` as of [`super::Face::poles`].
     pub fn step(&mut self, patch: &SplinePatch, poles: u8, probe: Vec3, known: f32, size: f32) -> CandidateStatus {
-        self.step_on(Displaced { rest: patch, by: Rigid::<ALL_KINDS> }, poles, probe, known, size)
+        self.step_on::<_, false>(Displaced { rest: patch, by: Rigid::<ALL_KINDS> }, poles, probe, known, size)
     }
 
-    /// The same on a displaced patch.
-    pub(super) fn step_on<D: Displacement>(
+    /// The same on a displaced patch. With `TO_REST` it goes on to a rest of the distance where a model that stands in for
+    /// the Hessian promises little; a tick's does not, since the tracker goes on.
+    pub(super) fn step_on<D: Displacement, const TO_REST: bool>(
         &mut self,
         patch: Displaced<'_, D>,
         poles: u8,
@@ -104,9 +105,9 @@ impl CandidateSearch {
     ) -> CandidateStatus {
         // Without poles their arithmetic is not compiled in.
         if poles == 0 {
-            self.step_apart(patch, probe, known, size)
+            self.step_apart::<D, TO_REST>(patch, probe, known, size)
         } else {
-            self.step_near_pole(patch, poles, probe, known, size)
+            self.step_near_pole::<D, TO_REST>(patch, poles, probe, known, size)
         }
     }
 
@@ -116,18 +117,18 @@ impl CandidateSearch {
     }
 
     #[inline(never)]
-    fn step_apart<D: Displacement>(
+    fn step_apart<D: Displacement, const TO_REST: bool>(
         &mut self,
         patch: Displaced<'_, D>,
         probe: Vec3,
         known: f32,
         size: f32,
     ) -> CandidateStatus {
-        self.judged(patch, 0, self.seen(patch, probe), known, size)
+        self.judged::<D, TO_REST>(patch, 0, self.seen(patch, probe), known, size)
     }
 
     #[inline(never)]
-    fn step_near_pole<D: Displacement>(
+    fn step_near_pole<D: Displacement, const TO_REST: bool>(
         &mut self,
         patch: Displaced<'_, D>,
         poles: u8,
@@ -135,7 +136,7 @@ impl CandidateSearch {
         known: f32,
         size: f32,
     ) -> CandidateStatus {
-        self.judged(patch, poles, self.seen(patch, probe), known, size)
+        self.judged::<D, TO_REST>(patch, poles, self.seen(patch, probe), known, size)
     }
 
     #[inline(always)]
@@ -145,7 +146,7 @@ impl CandidateSearch {
     }
 
     #[inline(always)]
-    fn judged<D: Displacement>(
+    fn judged<D: Displacement, const TO_REST: bool>(
         &mut self,
         patch: Displaced<'_, D>,
         poles: u8,
@@ -172,7 +173,7 @@ impl CandidateSearch {
                 }
             }
             (self.parameters, self.half_squared, self.halvings) = (at, half_squared, 0);
-            let (change, fall) = model.step(&seen, pole, range);
+            let (mut change, mut fall) = model.step(&seen, pole, range);
             // φ changes by d times the change of d. Near a pole, where steps shrink with the distance to it, the last
             // bit of φ counts too.
             let distance = sqrt_from_above(2.0 * half_squared);
@@ -180,8 +181,16 @@ impl CandidateSearch {
             if pole.is_some() {
                 resolved += f32::EPSILON * distance;
             }
-            if -fall <= resolved * (distance + resolved) {
-                return CandidateStatus::Found;
+            let worth = resolved * (distance + resolved);
+            if -fall <= worth {
+                if !TO_REST || model.is_newton || pole.is_some() {
+                    return CandidateStatus::Found;
+                }
+                // The stand-in's steps are short along an arc where φ is nearly flat.
+                (change, fall) = model.away_from_rest(&seen, range, worth);
+                if -fall <= worth {
+                    return CandidateStatus::Found;
+                }
             }
             self.trial = [0, 1].map(|axis| saturate(at[axis] + change[axis], lower[axis], upper[axis]));
             // If the model is proved at its minimiser, no evaluation is needed there.

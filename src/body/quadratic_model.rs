@@ -8,6 +8,7 @@
 use super::pole::{Pole, bend_of};
 use crate::math::{Vec3, saturate};
 use crate::patch::CurvedPoint;
+use crate::track::shifted;
 
 /// A determinant below this fraction of the product of the diagonal is rounding.
 const MIN_DETERMINANT: f32 = 1.0e-4;
@@ -82,6 +83,32 @@ impl Model {
             let (change, fall) = self.minimiser_near_pole(&pole, range);
             (pole.unrolled(change), fall)
         })
+    }
+
+    /// At a rest where `H` is not positive definite: the step to the minimum over `range` of the quadratic itself along
+    /// what no border holds, away from a saddle; or, if the shifted model promises more than `worth`, its step. And the
+    /// value there.
+    #[inline(never)]
+    pub(super) fn away_from_rest(
+        &self,
+        seen: &DistanceDerivatives,
+        [lower, upper]: [[f32; 2]; 2],
+        worth: f32,
+    ) -> ([f32; 2], f32) {
+        if is_positive_definite(seen.form) {
+            let shifted = Self { hessian: shifted(seen.form, seen.newton), ..*self };
+            let step = shifted.minimiser([lower, upper]);
+            if -step.1 > worth {
+                return step;
+            }
+        }
+        let free = |axis: usize| {
+            let slope = self.gradient[axis];
+            let is_held = (lower[axis] >= 0.0 && slope > 0.0) || (upper[axis] <= 0.0 && slope < 0.0);
+            if is_held { [0.0; 2] } else { [lower[axis], upper[axis]] }
+        };
+        let ([low_u, high_u], [low_v, high_v]) = (free(0), free(1));
+        Self { hessian: seen.newton, ..*self }.minimiser_on_sides([[low_u, low_v], [high_u, high_v]])
     }
 
     /// The model's gradient after a step.

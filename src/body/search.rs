@@ -102,9 +102,10 @@ impl Search {
         }
     }
 
-    /// One evaluation. The probe may move a little between two calls. Does nothing once the search has ended.
+    /// One evaluation. The probe may move a little between two calls. Does nothing once the search has ended. `TO_REST` as
+    /// of [`CandidateSearch::step_on`].
     #[inline(never)]
-    pub fn advance<D: Displacement>(&mut self, body: &Body<'_, D>, probe: Vec3) {
+    pub fn advance<D: Displacement, const TO_REST: bool>(&mut self, body: &Body<'_, D>, probe: Vec3) {
         if self.ended.is_some() {
             return;
         }
@@ -119,7 +120,7 @@ impl Search {
         }
         self.is_seen = false;
         let Candidate { face, .. } = self.descending.candidate;
-        let Some(progress) = body.search_on(&mut self.descending, probe, self.best.half_squared) else {
+        let Some(progress) = body.search_on::<TO_REST>(&mut self.descending, probe, self.best.half_squared) else {
             self.ended = Some(false);
             return;
         };
@@ -207,7 +208,7 @@ impl<D: Displacement> Body<'_, D> {
     pub fn locate(&self, probe: Vec3) -> Located {
         let mut search = Search::new(self, probe);
         for _ in 0..MAX_EVALUATIONS {
-            search.advance(self, probe);
+            search.advance::<D, true>(self, probe);
             if search.ended.is_some() {
                 break;
             }
@@ -245,7 +246,7 @@ impl<D: Displacement> Body<'_, D> {
         let mut descending = CandidateSearch::from(Candidate::whole(index), parameters, most).with_last_evaluation();
         for _ in 0..most {
             search.evaluations += 1;
-            if descending.step_on(patch, self.poles_of(index), probe, f32::INFINITY, self.size)
+            if descending.step_on::<D, true>(patch, self.poles_of(index), probe, f32::INFINITY, self.size)
                 != CandidateStatus::Falling
             {
                 break;
@@ -259,11 +260,16 @@ impl<D: Displacement> Body<'_, D> {
 
     /// One evaluation in a candidate; `None` if its face does not exist.
     #[inline]
-    pub(super) fn search_on(&self, search: &mut CandidateSearch, probe: Vec3, known: f32) -> Option<CandidateStatus> {
+    pub(super) fn search_on<const TO_REST: bool>(
+        &self,
+        search: &mut CandidateSearch,
+        probe: Vec3,
+        known: f32,
+    ) -> Option<CandidateStatus> {
         let Candidate { face, .. } = search.candidate;
         let on = self.faces.get(usize::from(face))?;
         let poles = if self.has_poles { on.poles() } else { 0 };
-        Some(search.step_on(self.patch(on), poles, probe, known, self.size))
+        Some(search.step_on::<D, TO_REST>(self.patch(on), poles, probe, known, self.size))
     }
 
     /// A search from the middle of a candidate.

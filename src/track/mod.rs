@@ -37,4 +37,5 @@ pub use paper::{
 };
 pub use placement::Placement;
 pub use projection::{FirstFundamentalForm, ProjectionErrors};
+pub(crate) use second_order::shifted;
 pub use witness::{Outcome, Probe, Step, Witness};

@@ -60,7 +60,7 @@ impl Model {
 
     /// The model shifted to `H + σ I`, if `H` is not convex: its smallest eigenvalue against `I` is then as far above
     /// 0 as that of `H` is below. `None` if the tangents span no plane.
-    #[inline(never)]
+    #[inline(always)]
     pub(super) fn shifted(errors: &ProjectionErrors, witness: &Witness) -> Option<Self> {
         let form = &errors.form;
         let area = form.determinant();
@@ -69,13 +69,8 @@ impl Model {
             return None;
         }
         let [uu, uv, vv] = witness.second.along(errors.difference);
-        let [a, b, c] = [form.e + uu, form.f + uv, form.g + vv];
-        // Half the sum of the eigenvalues, and half their difference.
-        let mean = 0.5 * (form.e * c + form.g * a - 2.0 * (form.f * b)) / area;
-        let off = sqrt(saturate(mean * mean - (a * c - b * b) / area, 0.0, f32::MAX));
-        let least = mean - off;
-        let shift = saturate(-least, MIN_EIGENVALUE, f32::MAX) - least;
-        let hessian @ [a, b, c] = [a + shift * form.e, b + shift * form.f, c + shift * form.g];
+        let form = [form.e, form.f, form.g];
+        let hessian @ [a, b, c] = shifted(form, [form[0] + uu, form[1] + uv, form[2] + vv]);
         Some(Self { gradient: errors.gradient, hessian, determinant: a * c - b * b })
     }
 
@@ -147,6 +142,19 @@ impl Model {
         let slope = if (free[0] + free[1]).is_finite() { self.slope(change) } else { 0.0 };
         Plan { change, parameters, is_inside, mode, beyond, slope }
     }
+}
+
+/// A Hessian that is not convex, shifted to `H + σ I`: its smallest eigenvalue against `I` is then as far above 0 as that
+/// of `H` is below. `I` is `[E, F, G]`, positive definite.
+#[inline(never)]
+pub(crate) fn shifted([e, f, g]: [f32; 3], [a, b, c]: [f32; 3]) -> [f32; 3] {
+    let area = e * g - f * f;
+    // Half the sum of the eigenvalues, and half their difference.
+    let mean = 0.5 * (e * c + g * a - 2.0 * (f * b)) / area;
+    let off = sqrt(saturate(mean * mean - (a * c - b * b) / area, 0.0, f32::MAX));
+    let least = mean - off;
+    let shift = saturate(-least, MIN_EIGENVALUE, f32::MAX) - least;
+    [a + shift * e, b + shift * f, c + shift * g]
 }
 
 /// Bounds of a step: `R` from above, `m₂` of `‖D²f[w, w]‖`, `m₃` of `‖D³f[w, w, w]‖`.

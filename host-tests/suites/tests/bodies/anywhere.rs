@@ -3,13 +3,15 @@
 
 use crate::scene::from_environment;
 use glam::DVec3;
+use palpate_bake::locator::StoredSurface;
 use palpate_bake::topology::bounding_box;
 use palpate_bake::{BakedBody, Model};
 use palpate_truth::body_oracle::BodyOracle;
 use palpate_truth::closest::{Found, Solver, Status};
 use palpate_truth::generate::Random;
 use palpate_truth::generate::bodies::{self, DrawnBody};
-use palpate_truth::oracle::OraclePoint;
+use palpate_truth::measured::{grouped, measured_if_listed};
+use palpate_truth::oracle::{Oracle, OraclePoint};
 use rayon::prelude::*;
 use std::path::PathBuf;
 
@@ -98,12 +100,16 @@ fn single_queries_around_ten_bodies_are_right_near_and_far() {
     none_wrong(&all.iter().flat_map(query).collect::<Vec<_>>());
 }
 
-/// An open patch as wavy as its net allows, of 80 mm: near its corners there are minima inside, on two sides and at the
-/// corner itself, all within a step of the locator's grid.
-fn wavy(seed: u64) -> String {
+/// An open patch as wavy as its net allows, of 80 mm, with weights up to `heaviest`: near its corners there are minima
+/// inside, on two sides and at the corner itself, all within a step of the locator's grid.
+pub fn wavy(seed: u64, heaviest: f64) -> String {
     let mut random = Random::new(seed);
     let place = [0.0, 2.7, 12.0, 28.0, 50.0, 67.0, 78.0, 80.0];
-    let mut point = |x: f64, y: f64| format!("[{x}, {y}, {}]", random.between(-8.0, 8.0));
+    let mut point = |x: f64, y: f64| {
+        let z = random.between(-8.0, 8.0);
+        let weight = if heaviest > 1.0 { random.scale(1.0, heaviest) } else { 1.0 };
+        format!("[{x}, {y}, {z}, {weight}]")
+    };
     let mut row = |x: &f64| format!("[{}]", place.map(|y| point(*x, y)).join(", "));
     let rows: Vec<_> = place.iter().map(&mut row).collect();
     let knots = "[0.0, 0.0, 0.0, 0.0, 0.1, 0.35, 0.6, 0.92, 1.0, 1.0, 1.0, 1.0]";
@@ -117,10 +123,58 @@ fn wavy(seed: u64) -> String {
 fn single_queries_around_open_wavy_patches_are_right_near_and_far() {
     let count = from_environment("PALPATE_PROBES", 5_000);
     let query = |seed: u64| {
-        let model = Model::parse(&wavy(seed), "wavy").unwrap_or_else(|error| panic!("{error}"));
+        let model = Model::parse(&wavy(seed, 1.0), "wavy").unwrap_or_else(|error| panic!("{error}"));
         wrong(&model, "wavy", count)
     };
     none_wrong(&(0..2).flat_map(query).collect::<Vec<_>>());
+}
+
+/// Of the size: a rest in `f32`.
+const AT_REST: f64 = 1e-6;
+
+/// Where a patch is nearly an arc around the probe, the distance hardly changes along it and no step promises much.
+#[test]
+fn what_is_called_complete_near_a_focus_is_at_rest() {
+    let count = from_environment("PALPATE_PROBES", 2_000);
+    let run = |heaviest: f64| {
+        let model = Model::parse(&wavy(3, heaviest), "wavy").unwrap_or_else(|error| panic!("{error}"));
+        let (patch, mut random) = (&model.patches[0], Random::new(5));
+        let mut focus = || {
+            let at = OraclePoint::evaluate(patch, random.between(0.0, 1.0), random.between(0.0, 1.0));
+            let curvature = at.principal_curvatures(false)[random.below(2)];
+            (at.point - at.normal(false) * random.between(0.97, 1.01) / curvature).as_vec3().as_dvec3()
+        };
+        let near = |probe: &DVec3| probe.length() < 0.08;
+        let probes: Vec<DVec3> = std::iter::repeat_with(&mut focus).filter(near).take(count as usize).collect();
+        let baked = BakedBody::new(&model, "wavy").unwrap();
+        let options = baked.locator_options();
+        let baked = baked.located_for(&probes, &options, &|_, _| ()).unwrap();
+        let body = baked.to_body().unwrap();
+        let oracle = Oracle::new(patch);
+        let surfaces: Vec<_> = baked.faces.iter().map(|face| StoredSurface::new(&face.patch)).collect();
+        let left = |probe: &DVec3| {
+            let found = body.locate(probe.as_vec3());
+            let [lower, upper] = [[0.0; 2], [1.0; 2]];
+            let surface = &surfaces[usize::from(found.face)];
+            let rest = surface.descend(*probe, found.parameters.map(f64::from), [lower, upper]).distance;
+            let nearest = oracle.closest(*probe).distance.min(rest);
+            let off = [rest, nearest].map(|from| (f64::from(found.distance()) - from) / f64::from(body.size()));
+            (off, found.complete)
+        };
+        let (complete, given_up): (Vec<_>, Vec<_>) = probes.par_iter().map(left).partition(|(_, complete)| *complete);
+        let [worst, off] = [0, 1].map(|from| complete.iter().map(|(off, _)| off[from]).fold(0.0, f64::max));
+        println!(
+            "weights to {heaviest}: {} complete, {worst:.1e} from rest at most; {} not",
+            complete.len(),
+            given_up.len()
+        );
+        assert!(given_up.len() < probes.len() / 10, "{} are given up", given_up.len());
+        assert!(worst < AT_REST, "{worst:.1e} of the size from rest");
+        let what = format!("{} cold queries at foci of a wavy patch, weights to {heaviest}", grouped(count.into()));
+        measured_if_listed(&format!("{what}: maximum error"), format!("{off:.1e}"));
+        measured_if_listed(&format!("{what}: given up"), given_up.len());
+    };
+    [1.0, 10.0].into_iter().for_each(run);
 }
 
 #[test]

@@ -36,7 +36,10 @@ fn the_demo_prints_what_the_readme_shows() {
 /// What the README calls each headline figure, and the claim that it is.
 const HEADLINES: [[&str; 2]; 6] = [
     ["rejected steps of 2·10⁶ on generated patches", "2,000,000 steps over generated patches: rejected steps"],
-    ["error of a cold closest point, worst", "cold, 2,000 golden probes of Table I and its companion: maximum error"],
+    [
+        "error of a cold closest point of Table I, worst",
+        "cold, 2,000 golden probes of Table I and its companion: maximum error",
+    ],
     ["tracking the closest point of a body, worst", "Cortex-M4F: closest point of the capped box, any, worst"],
     ["a whole servo tick, worst", "Cortex-M4F: servo tick, worst"],
     ["flash of the capped box's tables", "flash of the tables of `capped_box`"],
