@@ -79,7 +79,7 @@ impl EdgeStep {
     }
 
     /// The parameter after one second-order step, if it is certified: theory §12 in one parameter, by bounds alone, of
-    /// `‖c''‖`, `‖c'''‖` and the jumps of `c''`.
+    /// `‖c''‖`, `‖c'''‖` and the jumps of `c''`. Otherwise the uncertified one, if the model is convex.
     #[inline]
     pub(super) fn minimiser(
         &self,
@@ -87,11 +87,11 @@ impl EdgeStep {
         [second, third, jump]: [f32; 3],
         half_second: Vec3,
         t: f32,
-    ) -> Option<f32> {
+    ) -> Result<f32, Option<f32>> {
         let hessian = self.hessian(half_second);
         let is_convex = hessian > MIN_CURVATURE * self.stretch;
         if !is_convex {
-            return None;
+            return Err(None);
         }
         let target = saturate(t - self.gradient / hessian, 0.0, 1.0);
         let change = target - t;
@@ -103,7 +103,7 @@ impl EdgeStep {
         let more = bend * (2.0 * length + bend) + (2.0 / 3.0) * (distance * twist);
         let beyond = curve.beyond_knots(t, target);
         let is_certain = more <= slope && (beyond <= 0.0 || more + 2.0 * distance * jump * beyond <= slope);
-        is_certain.then_some(target)
+        if is_certain { Ok(target) } else { Err(Some(target)) }
     }
 
     /// The parameter after one first-order step, cut at the ends: Eq. (1)'s law `−g/G` with the longest gain that is

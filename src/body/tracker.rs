@@ -3,7 +3,8 @@
 use super::audit::Seeking;
 use super::curve::CurvePoint;
 use super::edge_step::EdgeStep;
-use super::feature::{EdgeFace, Face, Feature};
+use super::face_entry::MIN_FALL;
+use super::feature::{Edge, EdgeFace, Face, Feature};
 use super::table::Body;
 use crate::field::Displacement;
 use crate::math::{Vec3, sqrt, sqrt_from_above};
@@ -60,6 +61,8 @@ pub struct BodyWitness {
     pub(super) is_audited: bool,
     /// Behind the surface: whether it is the tracker's turn, not the audit's.
     pub(super) is_trackers_turn: bool,
+    /// Whether a full step without a certificate was rejected: the next one is the certified part of it.
+    pub(super) takes_part: bool,
     /// On an edge: whether the last tick asked all of its faces, and none took the probe.
     pub(super) no_face_took_probe: bool,
     /// The search for a global start, or the audit.
@@ -124,6 +127,7 @@ impl<D: Displacement> Body<'_, D> {
             is_located: false,
             is_audited: false,
             is_trackers_turn: false,
+            takes_part: false,
             no_face_took_probe: false,
             seeking: None,
             probe: Vec3::INFINITY,
@@ -257,6 +261,13 @@ impl<D: Displacement> Body<'_, D> {
             Err(most) => {
                 let aim = Aim::in_part(most, &self.patch(face), &state.witness, probe);
                 step.is_cut = aim.gain < 1.0;
+                if let Some(full) = most
+                    && step.is_cut
+                    && self.patch(face).is_rational()
+                    && !core::mem::take(&mut state.takes_part)
+                {
+                    return self.try_in_full(face, &full, state, step);
+                }
                 aim
             }
         };
@@ -274,6 +285,29 @@ impl<D: Displacement> Body<'_, D> {
         let reached = self.patch(face).evaluate_curved(u, v);
         step.evaluations += 1;
         step.outcome = aim.settle(&reached, &mut state.witness, probe, self.size);
+    }
+
+    /// A full step without a certificate, on a rational face: bounds of a quotient's derivatives over all of it are far
+    /// above those on the way. Kept if the distance falls enough (theory §12), otherwise the next step is certified.
+    #[inline(never)]
+    fn try_in_full(&self, face: &Face, full: &Aim, state: &mut BodyWitness, step: &mut BodyStep) {
+        let aim = full.landing_at(full.landing.parameters, MIN_FALL * full.slope);
+        step.is_cut = false;
+        if aim.beyond != BoundaryMode::Interior
+            && self.has_smooth_edges
+            && self.step_over_smooth_edge(face, &aim, state, step)
+        {
+            return;
+        }
+        let reached = self.patch(face).evaluate_apart(aim.landing.parameters);
+        step.evaluations += 1;
+        step.outcome = aim.settle(&reached, &mut state.witness, state.probe, self.size);
+        state.takes_part = step.outcome == Outcome::Rejected;
+        if state.takes_part {
+            state.witness.halvings = 0;
+        } else {
+            state.witness.mode = aim.beyond;
+        }
     }
 
     /// Whether the probe is near that of the last tick; false if it is not finite.
@@ -316,10 +350,13 @@ impl<D: Displacement> Body<'_, D> {
         let (t, probe) = (state.witness.parameters[0], state.probe);
         let bounds = self.edge_bounds(edge);
         let half_second = state.witness.second.half_uu;
-        let minimiser = if is_curved { along.minimiser(&edge.curve, bounds, half_second, t) } else { None };
+        let minimiser = if is_curved { along.minimiser(&edge.curve, bounds, half_second, t) } else { Err(None) };
         let next = match minimiser {
-            Some(next) => next,
-            None => along.advanced(bounds[0], t),
+            Ok(next) => next,
+            Err(Some(next)) if edge.curve.coefficients.tag() != 0 && !core::mem::take(&mut state.takes_part) => {
+                return self.try_along_edge(index, edge, along, next, state);
+            }
+            Err(_) => along.advanced(bounds[0], t),
         };
         if next == t {
             return Outcome::AtRest;
@@ -331,6 +368,21 @@ impl<D: Displacement> Body<'_, D> {
         }
         state.rest_on_edge(index, next, &reached);
         Outcome::Moved
+    }
+
+    /// An uncertified second-order step along a rational edge, on the terms of one on a face (theory §12). A rejected one
+    /// is followed by a certified one.
+    #[inline(never)]
+    fn try_along_edge(&self, index: u16, edge: &Edge, along: &EdgeStep, next: f32, state: &mut BodyWitness) -> Outcome {
+        let (reached, probe) = (self.on_edge(edge, next), state.probe);
+        let fall = MIN_FALL * along.gradient * (state.witness.parameters[0] - next);
+        let before = along.difference.length_squared() - fall;
+        if self.is_no_rise((reached.point - probe).length_squared(), before, reached.point, probe) {
+            state.rest_on_edge(index, next, &reached);
+            return Outcome::Moved;
+        }
+        state.takes_part = true;
+        Outcome::Rejected
     }
 
     /// Whether a squared distance is not above another by more than rounding.

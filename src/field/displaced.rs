@@ -1,7 +1,7 @@
 //! A displaced patch.
 
 use super::Displacement;
-use crate::patch::{CurvedPoint, Patch, SecondDerivativeBounds, ShapeBounds, SplinePatch, SurfacePoint};
+use crate::patch::{CurvedPoint, Kinds as _, Patch, SecondDerivativeBounds, ShapeBounds, SplinePatch, SurfacePoint};
 
 /// A patch of a body at rest, displaced: a pointer and the displacement.
 #[derive(Clone, Copy, Debug)]
@@ -27,9 +27,10 @@ impl<'p, D: Displacement> Displaced<'p, D> {
         point
     }
 
+    /// Whether it has weights. An image without such patches has no code for them.
     #[inline(always)]
     pub(crate) fn is_rational(&self) -> bool {
-        self.rest.is_rational()
+        self.rest.is_rational() && const { D::Kinds::MASK >> 16 != 0 }
     }
 }
 

@@ -1,9 +1,13 @@
-//! A patch with knots so uneven that a radius of it is 10 µm, against a dense search in double precision.
+//! A patch with knots so uneven that a radius of it is 10 µm, against a dense search in double precision; and patches
+//! with weights so uneven that bounds of their derivatives certify short steps only.
 
+use crate::anywhere::wavy;
 use glam::DVec3;
-use palpate::track::{Controller, Probe};
+use palpate::track::{Contact, Controller, Probe};
 use palpate_bake::{BakedBody, Model};
 use palpate_truth::closest::Solver;
+use palpate_truth::generate::Random;
+use palpate_truth::oracle::Oracle;
 
 /// Of the dense search, and of `f32` at this size.
 const EXACT_MM: f64 = 0.001;
@@ -45,4 +49,40 @@ fn uneven_knots_do_not_hold_the_tracker_back() {
     }
     println!("cold {:.6} mm, tracked {:.6} mm off", worst[0], worst[1]);
     assert!(worst.iter().all(|off| *off <= EXACT_MM), "{worst:?} mm");
+}
+
+/// Successive ticks at 4 kHz and 0.3 m/s, in front of the patch and behind it, where it is not touched.
+#[test]
+fn uneven_weights_do_not_hold_the_tracker_back() {
+    let (mut random, mut off) = (Random::new(9), Vec::new());
+    for seed in 0..4 {
+        let model = Model::parse(&wavy(seed, 10.0), "weights").unwrap();
+        let oracle = Oracle::new(&model.patches[0]);
+        let mut place = || DVec3::from_array([(); 3].map(|()| random.between(-0.05, 0.05)));
+        let mut probes = Vec::new();
+        for _ in 0..4 {
+            let (from, to) = (place(), place());
+            let stride = (to - from).normalize() * (0.3 / 4_000.0);
+            probes.extend((0..100).map(|tick| (from + stride * f64::from(tick)).as_vec3().as_dvec3()));
+        }
+        let baked = BakedBody::new(&model, "weights").unwrap();
+        let options = baked.locator_options();
+        let baked = baked.located_for(&probes, &options, &|_, _| ()).unwrap();
+        let body = baked.to_body().unwrap();
+        let mut state = body.start();
+        for (tick, at) in probes.iter().enumerate() {
+            let probe = Probe::at(at.as_vec3());
+            for _ in 0..if tick % 100 == 0 { 400 } else { 1 } {
+                body.step(&Controller::SecondOrder, &mut state, probe, 2.5e-4);
+            }
+            if state.contact != Contact::Touching {
+                let found = state.witness.surface.point.as_dvec3().distance(*at);
+                off.push((found - oracle.closest(*at).distance) / f64::from(body.size()));
+            }
+        }
+    }
+    off.sort_by(f64::total_cmp);
+    let of = |share: f64| off[(off.len() as f64 * share) as usize];
+    println!("{} rows: off by {:.1e} of the size in the median, {:.1e} at 95 %", off.len(), of(0.5), of(0.95));
+    assert!(off.len() > 1_000 && of(0.95) < 1e-6, "{:.1e}", of(0.95));
 }
