@@ -111,7 +111,7 @@ fn a_file_of_ones_own_is_held_and_a_bad_one_is_refused_in_the_words_of_the_tool(
         ensure!(code == Some(2), "{to}: the tool takes it: {words}");
         let state = dropped(&page, "spoiled.toml", spoiled.as_bytes())?;
         let refusal = state["refusal"].as_str().with_context(|| format!("{to}: not refused"))?;
-        ensure!(words.contains(refusal), "{to}: the page says\n{refusal}\nand the tool\n{words}");
+        ensure!(refusal.len() > 20 && words.contains(refusal), "{to}: the page says\n{refusal}\nand the tool\n{words}");
         ensure!(state["held"]["name"] == "mine", "the device before it stays: {state}");
     }
     // Under another body it stays in the hand.
