@@ -44,7 +44,7 @@ pub enum CoreOf {
 /// A core from the command line, in mm.
 ///
 /// # Errors
-/// What to give instead.
+/// A form that is not among these, or a length that is not above 0.
 pub fn core(text: &str) -> Result<CoreOf, String> {
     let (kind, lengths) = text.split_once(':').unwrap_or((text, ""));
     let half: Option<Vec<f64>> = match lengths {
