@@ -1,6 +1,6 @@
 //! `docs/reference/commands.md` lists every command with its options, as the tool's own help has them.
 
-use crate::pages::{compare, palpate, text};
+use crate::pages::{blocks, compare, palpate, text};
 use std::fmt::Write as _;
 
 const PAGE: &str = "docs/reference/commands.md";
@@ -50,6 +50,19 @@ fn table(command: &str) -> Option<String> {
         let _ = writeln!(rows, "| `{option}` | {default} | {meaning} |");
     }
     (!rows.is_empty()).then(|| format!("{HEADER}{rows}"))
+}
+
+#[test]
+fn the_device_file_of_the_page_is_the_one_that_the_tool_writes() {
+    const PAGE: &str = "docs/reference/device-format.md";
+    let file = tempfile::Builder::new().suffix(".toml").tempfile().expect("a file");
+    palpate(&["device", "woodenhaptics-2016", "--out", &file.path().to_string_lossy()]);
+    let written = std::fs::read_to_string(file.path()).expect("it was written");
+    let first = written.find("name").expect("a name");
+    let second = written.match_indices("[[joint]]").nth(1).expect("three joints").0;
+    let page = text(PAGE);
+    let shown = blocks(&page, "toml")[0];
+    compare(PAGE, &page.replace(shown, &written[first..second]));
 }
 
 #[test]
