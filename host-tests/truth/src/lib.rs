@@ -19,4 +19,6 @@ mod documents {
     struct Readme;
     #[doc = include_str!("../../../docs/howto/your-device.md")]
     struct YourDevice;
+    #[doc = include_str!("../../../docs/howto/tool.md")]
+    struct ShapedTool;
 }
