@@ -4,7 +4,7 @@ use crate::arrays::line;
 use crate::refusal::Refusal;
 use palpate::render::Detents;
 use palpate_link::{Device, Dial, DialFriction, Ends, Error, FeelPart, Line, Notch, Port, Spring, Wave};
-use palpate_sim::knob::{KnobFlash, SEARCH, SharedKnob, SimulatedKnob};
+use palpate_sim::knob::{DIAL_ZERO, KnobFlash, SEARCH, SharedKnob, SimulatedKnob};
 use palpate_sim::plant::{DialSettings, Fingers};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -244,6 +244,8 @@ impl Knob {
             return Err(Refusal::Settings(says.to_owned()).into());
         }
         let knob = self.world()?.clone();
+        // As the encoder counts, whose zero is not the shaft's.
+        let to = to + DIAL_ZERO;
         let from = knob.world().dial.angle();
         let hand = move |share: f64, rate| Fingers { stiffness, damping, aim: from + (to - from) * share, rate };
         self.ask(py, move |device| {
@@ -266,7 +268,8 @@ impl Knob {
     }
 
     fn trace<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let rows = self.world()?.world().trace.replace(Vec::new()).unwrap_or_default();
+        let mut rows = self.world()?.world().trace.replace(Vec::new()).unwrap_or_default();
+        rows.iter_mut().for_each(|row| row[2] -= DIAL_ZERO);
         let columns = PyDict::new(py);
         for (at, name) in ["angle", "torque", "shaft_angle", "shaft_torque"].into_iter().enumerate() {
             columns.set_item(name, line(py, rows.iter().map(|row| row[at]).collect()))?;

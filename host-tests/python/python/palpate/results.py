@@ -131,7 +131,7 @@ class Turned(NamedTuple):
 
     angle : (n,) float64 -- by the encoder, as springs and end stops count it, rad.
     torque : (n,) float64 -- of the feel, N·m, before soft start and limits.
-    shaft_angle : (n,) float64 -- of the simulated shaft, rad.
+    shaft_angle : (n,) float64 -- of the simulated shaft, rad: `angle` without the encoder's error.
     shaft_torque : (n,) float64 -- of motor and cogging on the shaft, N·m.
     """
 
