@@ -62,12 +62,14 @@ impl Law {
     }
 }
 
-/// Where a baseline ends from each start, likewise; not a number where it left the patch.
+/// Where a baseline ends from each start, likewise, with its steps up to the last that single precision shows; not a
+/// number where it left the patch.
 pub fn settle_baseline(patch: &NurbsPatch, method: Method, probe: DVec3, starts: &[[f64; 2]], most: u32) -> Ends {
     let baseline = Baseline::new(patch, method, Errors::Covariant);
     let end = |start: &[f64; 2]| {
         let (mut at, mut steps) = (start.map(|parameter| parameter.clamp(0.0, 1.0)), 0);
         let mut still = 0;
+        // In double precision eight small steps may be on the way: it goes on to the end.
         while steps < most {
             match baseline.step(at, probe) {
                 // What single precision does not show is no progress here, as for the firmware's laws.
@@ -77,11 +79,11 @@ pub fn settle_baseline(patch: &NurbsPatch, method: Method, probe: DVec3, starts:
                     at = next;
                 }
                 Advance::Out(_) => return ([f32::NAN; 2], steps, false),
-                Advance::Nowhere => return (at.map(|parameter| parameter as f32), steps, true),
+                Advance::Nowhere => return (at.map(|parameter| parameter as f32), steps - still, true),
             }
             steps += 1;
         }
-        (at.map(|parameter| parameter as f32), steps, still >= RESTS)
+        (at.map(|parameter| parameter as f32), steps - still, still >= RESTS)
     };
     starts.iter().map(end).collect()
 }

@@ -88,6 +88,12 @@ def test_the_baselines_end_where_the_surface_is_met_at_a_right_angle(law):
     # Quadratic: five steps are as near; linear: not.
     near = np.abs(body.settle(0, probe, at + 0.04, law=law, most=5).parameters - at).max()
     assert (near > 1e-5) == (law == "projected-gradient")
+    # As many steps as it takes to the last bit, and not one less: however many more it may take.
+    [steps] = settled.steps
+    assert body.settle(0, probe, at + 0.04, law=law, most=50).steps == [min(steps, 50)]
+    exact = [body.settle(0, probe, at + 0.04, law=law, most=most).parameters for most in (steps - 1, steps)]
+    assert (exact[0] != settled.parameters).any() and (exact[1] == settled.parameters).all()
+    assert steps < 9 or law == "projected-gradient"
 
 
 def test_newton_may_leave_the_face_and_an_unknown_law_is_named():

@@ -80,7 +80,8 @@ class Settled(NamedTuple):
     """Where a control law ends on one face, a row a start.
 
     parameters : (n, 2) float32 -- (u, v) at the end.
-    steps : (n,) uint32 -- steps until it rested, or as many as were allowed.
+    steps : (n,) uint32 -- steps up to the last that moved it in single precision, of every law alike. One
+        evaluates the face once; those of the projected laws again for each halving.
     rests : (n,) bool -- whether its last eight steps did not move it in single precision, which takes eight. A method in
         double precision also rests where it has no step to take: at a minimum, or where Newton's matrix is singular.
     """
