@@ -13,6 +13,7 @@ import os
 import shutil
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 FOLDER = Path(__file__).resolve().parent
@@ -50,10 +51,22 @@ def wheel(builder: Path) -> Path:
     wheels = TARGET / "wheels"
     if wheels.exists():
         shutil.rmtree(wheels)
-    run(
-        builder / "maturin", "build", "--quiet", "--profile", "apart", "--locked", "--interpreter", sys.executable,
+    # At a terminal cargo shows its own bar.
+    quiet = [] if sys.stderr.isatty() else ["--quiet"]
+    command = [
+        builder / "maturin", "build", *quiet, "--profile", "apart", "--locked", "--interpreter", sys.executable,
         "--manifest-path", FOLDER / "Cargo.toml", "--target-dir", ROOT / "target", "--out", wheels,
-    )  # fmt: skip
+    ]  # fmt: skip
+    began = time.monotonic()
+    with subprocess.Popen(command) as build:
+        while build.poll() is None:
+            try:
+                build.wait(30)
+            except subprocess.TimeoutExpired:
+                if quiet:
+                    say(f"building the wheel: {time.monotonic() - began:.0f} s so far")
+    if build.returncode:
+        raise subprocess.CalledProcessError(build.returncode, command)
     [made] = wheels.glob("*.whl")
     return made
 
@@ -76,7 +89,7 @@ def main() -> int:
         say(f"{sys.executable} makes no virtual environments: install python3-venv, or another Python")
         return 2
     builder = environment("builder", MATURIN)
-    say("building the wheel; the first time takes minutes")
+    say("building the wheel; the first time takes up to ten minutes")
     made = wheel(builder)
     if sys.argv[1:2] == ["--wheel"]:
         to = Path(sys.argv[2])
