@@ -16,6 +16,11 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple};
 use std::fs;
 use std::path::PathBuf;
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+/// Between two reports of progress, and before the first.
+const PACE: Duration = Duration::from_secs(1);
 
 #[pymethods]
 impl Body {
@@ -26,6 +31,7 @@ impl Body {
         tolerance: f64,
         unit: &str,
         modes: Option<PathBuf>,
+        progress: Option<Py<PyAny>>,
     ) -> PyResult<Self> {
         let source = if let Ok(path) = model.extract::<PathBuf>() {
             py.detach(|| of_file(&path, tolerance))?
@@ -35,12 +41,22 @@ impl Body {
                 .map_err(|_| Refusal::Model("a model is a path, or a list of patches, each a dictionary".to_owned()))?;
             patches::model(&listed, unit)?
         };
-        Ok(py.detach(|| Self::of(source, modes.as_deref()))?)
+        let told = Mutex::new(Instant::now());
+        let tell = |done: usize, all: usize| {
+            // Workers that find another one speaking go on.
+            let Some((progress, mut told)) = progress.as_ref().zip(told.try_lock().ok()) else { return };
+            if told.elapsed() > PACE {
+                // A display that fails spoils no body.
+                let _ = Python::attach(|py| progress.call1(py, (done, all)).map(drop));
+                *told = Instant::now();
+            }
+        };
+        Ok(py.detach(|| Self::of(source, modes.as_deref(), &tell))?)
     }
 
     #[staticmethod]
     fn load(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        Ok(py.detach(|| of_baked(&path).and_then(|source| Self::of(source, None)))?)
+        Ok(py.detach(|| of_baked(&path).and_then(|source| Self::of(source, None, &|_, _| ())))?)
     }
 
     fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {

@@ -83,11 +83,11 @@ fn of_part(path: &Path, tolerance: f64) -> Result<String, Refusal> {
 }
 
 impl Source {
-    /// Bakes it, if it is not baked already.
+    /// Bakes it, if it is not baked already; `progress` hears cells of space that are done, and all.
     ///
     /// # Errors
     /// A fault of its patches, or between them.
-    pub fn made(self) -> Result<Made, Refusal> {
+    pub fn made(self, progress: &(dyn Fn(usize, usize) + Sync)) -> Result<Made, Refusal> {
         let (text, label) = match self {
             Self::Tables(file, bytes) => return Ok(Made { model: file.model, baked: file.body, bytes }),
             Self::Text(text, label) => (text, label),
@@ -96,7 +96,7 @@ impl Source {
         let baked = BakedBody::new(&model, &label).map_err(|error| Refusal::Model(error.to_string()))?;
         let options = baked.locator_options();
         let refused = |error: &dyn std::fmt::Display| Refusal::Model(format!("{label}: {error}"));
-        let (baked, _) = baked.located(&options, &|_, _| {}).map_err(|error| refused(&error))?;
+        let (baked, _) = baked.located(&options, progress).map_err(|error| refused(&error))?;
         let digest = Sha256::digest(text.as_bytes()).into();
         let bytes = palpate_bake::file::write(digest, &model, &baked).map_err(|fault| refused(&fault))?;
         Ok(Made { model, baked, bytes })

@@ -1,5 +1,7 @@
 """Bodies: baked from every kind of model, saved, loaded, refused."""
 
+import re
+
 import numpy as np
 import palpate
 import pytest
@@ -158,3 +160,22 @@ def test_derivatives_are_those_of_finite_differences(capped_box):
         capped_box.evaluate(99, at)
     with pytest.raises(palpate.ArrayError, match=r"parameters\[0\] is not finite"):
         capped_box.evaluate(0, [[0.5, np.nan]])
+
+
+def test_the_patch_of_the_page_is_a_quarter_of_a_cylinder():
+    page = (ROOT / "docs/howto/python.md").read_text()
+    [code] = [code for code in re.findall(r"```python\n(.*?)```", page, re.S) if "quarter" in code]
+    names = {"palpate": palpate}
+    exec(code, names)
+    assert abs(names["gap"][0] - (np.hypot(0.03, 0.03) - 0.02)) < 1e-8
+
+
+def test_a_long_bake_says_how_far_it_is_unless_it_is_to_be_silent(capsys):
+    sphere = ROOT / "host-tests/cad/tests/parts/s06.step"
+    palpate.Body.bake(sphere, progress=False)
+    assert capsys.readouterr().err == ""
+    palpate.Body.bake(sphere)
+    said = capsys.readouterr().err
+    steps = [tuple(map(int, step)) for step in re.findall(r"\rbaking: (\d+) of (\d+) cells of space", said)]
+    assert steps and said.endswith("\n") and said.count("\n") == 1, repr(said)
+    assert all(0 < done <= of for done, of in steps)

@@ -1,6 +1,6 @@
 """The compiled half: arrays of exact kinds, without the comforts of the package."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
 from typing import Any, final
 
@@ -39,6 +39,7 @@ class Body:
         tolerance: float,
         unit: str,
         modes: str | PathLike[str] | None,
+        progress: Callable[[int, int], None] | None,
     ) -> Body: ...
     @staticmethod
     def load(path: str | PathLike[str]) -> Body: ...

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from os import PathLike
 from typing import Any, Mapping, Sequence
 
@@ -30,8 +31,10 @@ class Body:
         tolerance: float = 1e-5,
         unit: str = "m",
         modes: str | PathLike[str] | None = None,
+        progress: bool = True,
     ) -> Body:
-        """Bakes a body, its certificates and Voronoi regions proved on the way.
+        """Bakes a body, its certificates and Voronoi regions proved on the way. From the second second on, `progress`
+        prints how far it is to ``sys.stderr``, in one line.
 
         `model` is a path: a model file (``.toml``), a CAD part (``.step``, ``.stp``, made into patches within
         `tolerance`, m), a baked body (``.palp``), or the bare name of a model that ships. Or it is a list of patches,
@@ -54,7 +57,17 @@ class Body:
             model = [model]
         if isinstance(model, (list, tuple)):
             model = [patch_of(patch) if is_surface(patch) else _plain(patch) for patch in model]
-        return Body(_native.Body.bake(model, tolerance, unit, modes))
+        told: list[int] = []
+
+        def tell(done: int, of: int) -> None:
+            told.append(done)
+            print(f"\rbaking: {done} of {of} cells of space".ljust(60), end="", file=sys.stderr, flush=True)
+
+        try:
+            return Body(_native.Body.bake(model, tolerance, unit, modes, tell if progress else None))
+        finally:
+            if told:
+                print(file=sys.stderr)
 
     @staticmethod
     def load(path: str | PathLike[str]) -> Body:
