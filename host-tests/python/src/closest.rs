@@ -6,6 +6,7 @@ use palpate::field::Mode;
 use palpate::math::Vec3;
 use palpate_bake::sides::Sides;
 use palpate_truth::closest::{Solver, Status};
+use palpate_truth::lower_bound::lower_bound;
 
 /// Closest points, a row each.
 #[derive(Default)]
@@ -30,6 +31,8 @@ pub struct Found {
     pub far: Vec<bool>,
     /// Whether a `q` is beyond its budget, and was set to it.
     pub clamped: Vec<bool>,
+    /// A proved bound of how much nearer a point may be, m; not a number if none was wanted.
+    pub error_bound: Vec<f64>,
 }
 
 /// One of them, in the frame of the tables.
@@ -57,12 +60,13 @@ impl Found {
             complete: Vec::with_capacity(count),
             far: Vec::with_capacity(count),
             clamped: Vec::with_capacity(count),
+            error_bound: Vec::with_capacity(count),
         }
     }
 
     /// The closest points of a body to these places of its model; with `signed`, on which side of a closed body each
-    /// of them is.
-    pub fn of(body: &Body, points: &[[f64; 3]], signed: bool) -> Self {
+    /// of them is; with `bounded`, how much nearer another may be.
+    pub fn of(body: &Body, points: &[[f64; 3]], signed: bool, bounded: bool) -> Self {
         let sides = (signed && body.has_inside()).then(|| Sides::new(body.tables, &body.baked));
         let mut found = Self::with_room(points.len());
         for given in points {
@@ -80,7 +84,10 @@ impl Found {
                 is_far: !body.tables.locator().holds(probe),
                 is_clamped: false,
             };
+            let distance = answer.point.as_dvec3().distance(probe.as_dvec3());
             found.push(body, *given, &answer);
+            let nearer = || (distance - lower_bound(&body.baked, probe.as_dvec3())).max(0.0);
+            found.error_bound.push(if bounded { nearer() } else { f64::NAN });
         }
         found
     }
@@ -103,6 +110,7 @@ impl Found {
                 is_clamped: !solver.holds(q),
             };
             found.push(body, *given, &answer);
+            found.error_bound.push(f64::NAN);
         }
         found
     }

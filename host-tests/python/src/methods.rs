@@ -129,11 +129,12 @@ impl Body {
         points: PyReadonlyArray2<'py, f64>,
         q: PyReadonlyArray2<'py, f64>,
         signed: bool,
+        bounded: bool,
     ) -> PyResult<Bound<'py, PyTuple>> {
         let points = rows::<3>("points", &points)?;
         let q = amplitudes(&q, points.len(), self.count())?;
         let found = py.detach(|| match &self.modes {
-            None => Found::of(self, &points, signed),
+            None => Found::of(self, &points, signed, bounded),
             Some(modes) => Found::displaced(self, modes.fields, &points, &q, signed),
         });
         (
@@ -147,6 +148,7 @@ impl Body {
             line(py, found.complete),
             line(py, found.far),
             line(py, found.clamped),
+            line(py, found.error_bound),
         )
             .into_pyobject(py)
     }

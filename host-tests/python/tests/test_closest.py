@@ -94,6 +94,29 @@ def test_distances_to_a_sphere_are_its_closed_form():
     same_bits(unsigned.gap, np.abs(found.gap))
 
 
+def test_no_point_is_nearer_than_the_bound_of_the_error_says():
+    # Between two humps, where the search of a list may end on the farther one; heavy on one of them.
+    i, j = np.meshgrid(np.arange(5), np.arange(5), indexing="ij")
+    grid = 1e-3 * np.stack([20.0 * i, 20.0 * j, 12.0 * np.sin(1.7 * i) * np.cos(1.4 * j)], -1)
+    weights = np.ones((5, 5, 1))
+    weights[2, 3] = 2.5
+    knots = [0, 0, 0, 0, 0.5, 1, 1, 1, 1]
+    patch = {"degree": [3, 3], "knots_u": knots, "knots_v": knots, "points": np.concatenate([grid, weights], -1)}
+    body = palpate.Body.bake([patch])
+    # One that once ended 0.85 um too far, on the side of a valley that is nearly an arc around it.
+    flat = [0.05452363317957871, 0.08783200007430436, 0.019509199654855987]
+    points = np.concatenate([[flat], np.random.default_rng(3).uniform(-0.01, 0.09, (20, 3))])
+    found = body.closest(points, bounded=True)
+    steps = np.linspace(0, 1, 301)
+    sampled = body.evaluate(0, np.stack(np.meshgrid(steps, steps), -1).reshape(-1, 2)).point
+    nearest = np.array([np.linalg.norm(sampled - point, axis=1).min() for point in points])
+    assert found.complete.all() and body.faces == 1
+    assert (np.abs(found.gap) - found.error_bound <= nearest + 1e-7 * body.size).all()
+    # The search skips an evaluation that is proved to bring no more, and the proof ends a ten-millionth from the truth.
+    assert (found.error_bound < 2.5e-6 * body.size).all() and (found.error_bound >= 0).all()
+    assert np.isnan(body.closest(points).error_bound).all()
+
+
 def test_queries_beyond_the_tables_are_marked(capped_box):
     near, far = capped_box.closest([[0.03, 0.02, 0.05], [50.0, 50.0, 50.0]]).far
     assert not near and far

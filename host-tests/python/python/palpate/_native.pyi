@@ -67,7 +67,7 @@ class Body:
     @property
     def is_convex(self) -> bool: ...
     def closest(
-        self, points: NDArray[np.float64], q: NDArray[np.float64], signed: bool
+        self, points: NDArray[np.float64], q: NDArray[np.float64], signed: bool, bounded: bool
     ) -> tuple[
         NDArray[np.uint32],
         NDArray[np.float64],
@@ -79,6 +79,7 @@ class Body:
         NDArray[np.bool_],
         NDArray[np.bool_],
         NDArray[np.bool_],
+        NDArray[np.float64],
     ]: ...
     def evaluate(self, face: int, parameters: NDArray[np.float64]) -> list[NDArray[np.float64]]: ...
     def settle(

@@ -81,17 +81,20 @@ class Body:
         """Writes the body's file (``.palp``), byte by byte the one that ``palpate bake`` writes."""
         self._native.save(path)
 
-    def closest(self, points: ArrayLike, q: ArrayLike | None = None, *, signed: bool = True) -> Closest:
+    def closest(
+        self, points: ArrayLike, q: ArrayLike | None = None, *, signed: bool = True, bounded: bool = False
+    ) -> Closest:
         """The closest points of `points`, (n, 3), m, each from a standing start.
 
         A body with modes takes `q` of each of its M modes, m: (M,) for all points, or (n, M); a q beyond `budget` is
         set to it, and `clamped` is true. The answers are those of ``palpate closest --modes``.
 
         ``signed=False`` leaves out on which side of a closed body a point is, which takes most of the time of a body at
-        rest. Raises ArrayError for another shape, or a number that is not finite.
+        rest. ``bounded=True`` proves an `error_bound` of each point of a body at rest, in up to 20,000 evaluations of
+        patches a point. Raises ArrayError for another shape, or a number that is not finite.
         """
         places = rows("points", points, 3)
-        return Closest(*self._native.closest(places, self._amplitudes(q, len(places)), signed))
+        return Closest(*self._native.closest(places, self._amplitudes(q, len(places)), signed, bounded))
 
     def _amplitudes(self, q: ArrayLike | None, count: int) -> NDArray[np.float64]:
         """`q` of every point, (count, M)."""

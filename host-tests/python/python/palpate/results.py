@@ -22,6 +22,7 @@ class Closest(NamedTuple):
     far : (n,) bool -- whether the query lies beyond the tables: it takes the list of the nearest cell, which is not
         proved to hold the closest point from there.
     clamped : (n,) bool -- whether a q was beyond its budget, and was set to it.
+    error_bound : (n,) float64 -- how much nearer another point may be, m, proved; NaN unless asked for.
     """
 
     patch: NDArray[np.uint32]
@@ -34,6 +35,7 @@ class Closest(NamedTuple):
     complete: NDArray[np.bool_]
     far: NDArray[np.bool_]
     clamped: NDArray[np.bool_]
+    error_bound: NDArray[np.float64]
 
 
 class Ticks(NamedTuple):
