@@ -2,9 +2,11 @@
 //! change first.
 
 use crate::{ChopperSettings, CurrentLimits, JogSettings};
-use palpate::device::drive::{Feed, Field, Modulation};
-use palpate::device::presets::{GIMBAL_KNOB, GIMBAL_KNOB_COMMUTATION, GIMBAL_KNOB_PROTECTION};
-use palpate::device::{CoggingMap, Device, Dial, FieldSearch, Homing, Protection, Reference, SupplyRange};
+use palpate::device::drive::{Feed, Field, Modulation, VoltageFeed};
+use palpate::device::presets::{GIMBAL_KNOB, GIMBAL_KNOB_PROTECTION};
+use palpate::device::{
+    CoggingMap, Commutation, Device, Dial, FieldSearch, Homing, Motor, Protection, Reference, SupplyRange,
+};
 use palpate::math::Vec3;
 use palpate::render::{Detents, Ends, Feel, Spring, Wave};
 use palpate::servo::{Config, GuardState, Guarded, Knob, KnobWitness, Output, Servo, ServoState, Settings};
@@ -15,6 +17,18 @@ pub type KnobServo = Servo<'static, Knob, Dial, 1, Guarded<1>>;
 /// Its state between two ticks.
 pub type KnobState = ServoState<1, KnobWitness, GuardState<1>>;
 
+/// Current at full duty, A: the limit of stage and motor.
+const CURRENT_AT_FULL: f32 = 0.75;
+/// Supply, V; resistance of a phase, half of that between two wires, Ω; speed for each volt, rpm/V.
+const FEED: VoltageFeed = VoltageFeed::three_phase(12.0, 7.5, 80.0, CURRENT_AT_FULL);
+/// The motor. What the dial and its sensor are, and what the hand may meet, is the preset's.
+pub const MOTOR: Device<Dial, 1> = Device {
+    motors: [Motor::current_driven(FEED.torque_constant_n_m_per_a, CURRENT_AT_FULL, 1.0)],
+    feeds: [Feed::Voltage(FEED)],
+    ..GIMBAL_KNOB
+};
+/// Half the number of magnets, and the sensor's counts.
+pub const COMMUTATION: Commutation = Commutation { counts_per_turn: 16_384, pole_pairs: 11 };
 /// The limits of its motor; a board that measures its supply adds that.
 pub const PROTECTION: Protection<1> = GIMBAL_KNOB_PROTECTION;
 /// 12 V, on a supply that neither breaks down nor is pumped up by the motor.
@@ -39,17 +53,12 @@ pub const SETTINGS: Settings = Settings {
 
 /// The device, with the cogging of its motor if that has been recorded.
 pub const fn device(cogging: Option<CoggingMap>) -> Device<Dial, 1> {
-    Device { kinematics: Dial { cogging, ..GIMBAL_KNOB.kinematics }, ..GIMBAL_KNOB }
+    Device { kinematics: Dial { cogging, ..MOTOR.kinematics }, ..MOTOR }
 }
 
 /// The field comes up within a fifth of a second and is led round three electrical turns, half a second each.
-pub const SEARCH: FieldSearch = FieldSearch {
-    commutation: GIMBAL_KNOB_COMMUTATION,
-    torque_n_m: 0.03,
-    ramp_ticks: 800,
-    turn_ticks: 2_000,
-    turns: 1,
-};
+pub const SEARCH: FieldSearch =
+    FieldSearch { commutation: COMMUTATION, torque_n_m: 0.03, ramp_ticks: 800, turn_ticks: 2_000, turns: 1 };
 
 /// How the rotor is led round while button and key are held, to record its cogging: 6 s for an electrical turn, with 40
 /// mN·m. Faster, its inertia would count as cogging. It snaps to the field at first, so it may be faster for a moment.
@@ -58,14 +67,13 @@ pub const JOG: JogSettings =
 
 /// The torque of a field that is led with this duty of voltage on a rotor a quarter turn behind it, N·m.
 pub const fn led_torque(share: f32) -> f32 {
-    match GIMBAL_KNOB.feeds[0] {
+    match MOTOR.feeds[0] {
         Feed::Voltage(feed) => feed.torque_constant_n_m_per_a * share * feed.full_v() / feed.resistance_ohm,
         Feed::Current => 0.0,
     }
 }
 // No heat is counted meanwhile: the limit is the motor's continuous torque.
-const _: () =
-    assert!(led_torque(JOG.share) <= PROTECTION.motors[0].continuous * GIMBAL_KNOB.motors[0].torque_at_full_n_m);
+const _: () = assert!(led_torque(JOG.share) <= PROTECTION.motors[0].continuous * MOTOR.motors[0].torque_at_full_n_m);
 
 /// Torque that is let go of in a second when another feel is chosen, N·m: all of it in a twentieth.
 pub const LET_GO: f32 = 1.2;
@@ -122,7 +130,7 @@ pub const fn homing(search: FieldSearch) -> Homing<1> {
 /// The loop of a device with this protection, aligned by a search.
 pub const fn servo(device: &'static Device<Dial, 1>, search: FieldSearch, protection: Protection<1>) -> KnobServo {
     // It lives as long as the loop: a constant of its own.
-    static KNOB: Knob = Knob::new(&GIMBAL_KNOB, &FEELS, LET_GO);
+    static KNOB: Knob = Knob::new(&MOTOR, &FEELS, LET_GO);
     Servo::protected(
         device,
         &KNOB,

@@ -1,6 +1,6 @@
 //! Devices as commands name them: one that ships, one's own by its file, or the knob.
 
-use anyhow::Context;
+use anyhow::{Context, ensure};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use palpate_sim::devices::OwnDevice;
 pub use palpate_sim::devices::{DEVICES, Preset, ShippedDevice, named, own_device};
@@ -97,6 +97,7 @@ impl TypedValueParser for NameOrFile {
 /// The refused entry, or a shipped device of fewer joints.
 pub fn own(device: &Path) -> anyhow::Result<OwnDevice> {
     let name = device.to_string_lossy();
+    ensure!(name != "knob", "knob has no device file: its numbers are in boards/src/knob.rs (docs/howto/knob.md)");
     Ok(match named(&name) {
         Some(shipped) => {
             let file = shipped.file().with_context(|| {

@@ -104,7 +104,10 @@ fn figures(with: &Run, without: &Run) -> Vec<(&'static str, String)> {
             let quiet =
                 turned[tick..].iter().all(|sample| sample.current == 0.0 && sample.report.duties == [i16::MIN; 3]);
             let name = Fault::from_code(turned[tick].report.fault).map_or_else(String::new, |fault| fault.to_string());
-            format!("magnet slipped: {name}; {}", if quiet { "no current from that tick on" } else { "STILL DRIVEN" })
+            format!(
+                "planted, magnet slipped: {name}; {}",
+                if quiet { "no current from that tick on" } else { "STILL DRIVEN" }
+            )
         },
     );
     let mut figures = vec![
