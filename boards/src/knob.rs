@@ -21,7 +21,7 @@ pub type KnobState = ServoState<1, KnobWitness, GuardState<1>>;
 const CURRENT_AT_FULL: f32 = 0.75;
 /// Supply, V; resistance of a phase, half of that between two wires, Ω; speed for each volt, rpm/V.
 const FEED: VoltageFeed = VoltageFeed::three_phase(12.0, 7.5, 80.0, CURRENT_AT_FULL);
-/// The motor. What the dial and its sensor are, and what the hand may meet, is the preset's.
+/// The motor. Dial, sensor and limits are those of the preset.
 pub const MOTOR: Device<Dial, 1> = Device {
     motors: [Motor::current_driven(FEED.torque_constant_n_m_per_a, CURRENT_AT_FULL, 1.0)],
     feeds: [Feed::Voltage(FEED)],
