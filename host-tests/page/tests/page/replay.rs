@@ -23,8 +23,8 @@ fn runs_of_every_kind_are_felt_anew_to_the_same_hash() -> anyhow::Result<()> {
         fs::write(&file, text.replace(entry, instead).replace(&format!("name = \"{from}\""), "name = \"mine\""))?;
         Ok(file)
     };
-    let delta = own("falcon", "thigh = 0.06\n", "thigh = 0.061\n")?;
-    let linkage = own("polhem-v2", "mass = 0.15764\n", "mass = 0.2\n")?;
+    let delta = own("falcon", "thigh = 0.06", "thigh = 0.061")?;
+    let linkage = own("polhem-v2", "mass = 0.15764", "mass = 0.2")?;
     let page = Page::held_still()?;
     let mut hashes = Vec::new();
     for arguments in [
