@@ -5,7 +5,7 @@ use crate::{ChopperSettings, CurrentLimits, JogSettings};
 use palpate::device::drive::{Feed, Field, Modulation, VoltageFeed};
 use palpate::device::presets::{GIMBAL_KNOB, GIMBAL_KNOB_PROTECTION};
 use palpate::device::{
-    CoggingMap, Commutation, Device, Dial, FieldSearch, Homing, Motor, Protection, Reference, SupplyRange,
+    CoggingMap, Commutation, Device, Dial, Endurance, FieldSearch, Homing, Motor, Protection, Reference, SupplyRange,
 };
 use palpate::math::Vec3;
 use palpate::render::{Detents, Ends, Feel, Spring, Wave};
@@ -19,6 +19,9 @@ pub type KnobState = ServoState<1, KnobWitness, GuardState<1>>;
 
 /// Current at full duty, A: the limit of stage and motor.
 const CURRENT_AT_FULL: f32 = 0.75;
+/// Continuous current of whichever phase has the most, A, and the time constant of its winding, s: both assumed.
+const CONTINUOUS_A: f32 = 0.4;
+const HEATING_S: f32 = 20.0;
 /// Supply, V; resistance of a phase, half of that between two wires, Ω; speed for each volt, rpm/V.
 const FEED: VoltageFeed = VoltageFeed::three_phase(12.0, 7.5, 80.0, CURRENT_AT_FULL);
 /// The motor. Dial, sensor and limits are those of the preset.
@@ -30,7 +33,8 @@ pub const MOTOR: Device<Dial, 1> = Device {
 /// Half the number of magnets, and the sensor's counts.
 pub const COMMUTATION: Commutation = Commutation { counts_per_turn: 16_384, pole_pairs: 11 };
 /// The limits of its motor; a board that measures its supply adds that.
-pub const PROTECTION: Protection<1> = GIMBAL_KNOB_PROTECTION;
+pub const PROTECTION: Protection<1> =
+    Protection { motors: [Endurance::three_phase(CONTINUOUS_A, CURRENT_AT_FULL, HEATING_S)], ..GIMBAL_KNOB_PROTECTION };
 /// 12 V, on a supply that neither breaks down nor is pumped up by the motor.
 pub const SUPPLY: SupplyRange = SupplyRange { min_mv: 10_000, max_mv: 14_000 };
 

@@ -75,10 +75,11 @@ pub trait FrameTo<K>: Frame {
     /// Notes the handle's orientation, where the frame has the counts of a wrist.
     fn orient<S: Surface, G: Guard<3>>(
         &self,
-        servo: &Servo<'_, S, K, 3, G>,
-        state: &mut ServoState<3, S::Witness, G::State>,
-        wrist: &mut WristState,
-    );
+        _servo: &Servo<'_, S, K, 3, G>,
+        _state: &mut ServoState<3, S::Witness, G::State>,
+        _wrist: &mut WristState,
+    ) {
+    }
 }
 
 impl Frame for Sensors {
@@ -87,15 +88,7 @@ impl Frame for Sensors {
     }
 }
 
-impl<K> FrameTo<K> for Sensors {
-    fn orient<S: Surface, G: Guard<3>>(
-        &self,
-        _: &Servo<'_, S, K, 3, G>,
-        _: &mut ServoState<3, S::Witness, G::State>,
-        _: &mut WristState,
-    ) {
-    }
-}
+impl<K> FrameTo<K> for Sensors {}
 
 impl Frame for WristSensors {
     fn arm(&self) -> Sensors {

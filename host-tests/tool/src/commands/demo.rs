@@ -7,7 +7,7 @@ use crate::devices::Chosen;
 use crate::firmware::{self, Board, Choice, Firmware, Program, Progress, SetUpError, Transport};
 use crate::report::{self, Report, Summary};
 use crate::simulation::{self, Trace};
-use anyhow::{Context, bail};
+use anyhow::{Context, bail, ensure};
 use clap::{Args, ValueEnum};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -56,6 +56,7 @@ struct Run {
 /// The cause, for the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     if let Chosen::Knob = arguments.scene.device {
+        ensure!(arguments.scene.tool.is_none(), "--tool touches a body, and the knob touches none");
         return demo_knob::run(arguments.board, arguments.host, &arguments.report, arguments.picture.as_deref());
     }
     let mut scene = arguments.scene.scene()?;
