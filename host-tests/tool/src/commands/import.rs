@@ -45,7 +45,7 @@ pub struct Arguments {
     picture: Option<PathBuf>,
 }
 
-/// Patches up to which the flash is counted, by a locator that stays in the cache for `bake`: some ten processor seconds.
+/// Patches up to which the flash is counted, by a locator that stays in the cache for `bake`: 25 processor seconds at most.
 const COUNTED: usize = 128;
 /// Bytes of flash for each patch of other bodies: parts take 1 to 3 KB.
 const PER_PATCH: u64 = 2_000;
