@@ -1,7 +1,7 @@
 //! `palpate budgets`: what the hot path costs on the emulated board, beside what it may cost.
 
 use super::bake;
-use crate::budgets::{Budget, Figures, Verdict, measure, on_file};
+use crate::budgets::{Budget, Figures, Images, Verdict, measure, on_file};
 use crate::firmware::{BenchBoard, Board, Progress};
 use clap::Args;
 use std::fmt::Write as _;
@@ -54,14 +54,14 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         }
         return Ok(ExitCode::SUCCESS);
     }
-    let found = measure(arguments.board, &Progress::new())?;
+    let found = measure(arguments.board, Images::All, &Progress::new())?;
     if arguments.record {
         let file = Budget::record(arguments.board, &found)?;
         println!("recorded {} figures in {}", found.0.len(), file.display());
         return Ok(ExitCode::SUCCESS);
     }
     let budget = Budget::load(arguments.board)?;
-    let verdicts = budget.compare(&found);
+    let verdicts = budget.compare(&found, Images::All);
     print_table(&found, &verdicts);
     Ok(if verdicts.iter().any(Verdict::fails) { ExitCode::FAILURE } else { ExitCode::SUCCESS })
 }

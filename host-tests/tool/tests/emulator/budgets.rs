@@ -1,7 +1,7 @@
 //! What the hot path costs is a budget, and some of it is promised.
 
 use crate::running::{boards, is_wanted};
-use palpate_tool::budgets::{Budget, Figures, Verdict, measure};
+use palpate_tool::budgets::{Budget, Figures, Images, Verdict, measure};
 use palpate_tool::firmware::{Board, Progress, is_long};
 
 /// A biquadratic evaluation by Horner's rule cannot do with fewer instructions: `palpate::patch` counts them.
@@ -47,8 +47,9 @@ fn the_hot_path_is_within_its_budget() {
 }
 
 fn compare(board: Board) -> Figures {
-    let found = measure(board, &Progress::new()).expect("the program runs to its end");
-    let verdicts = Budget::load(board).expect("the committed budget").compare(&found);
+    let images = if is_long() { Images::All } else { Images::Few };
+    let found = measure(board, images, &Progress::new()).expect("the program runs to its end");
+    let verdicts = Budget::load(board).expect("the committed budget").compare(&found, images);
     let over: Vec<String> = verdicts
         .iter()
         .filter(|verdict| verdict.fails())
