@@ -108,7 +108,7 @@ pub enum Images {
     All,
 }
 
-/// What the figures of images that are not among the few begin with.
+/// Start of the names of figures whose images are not among the few.
 const BETWEEN: [&str; 5] = [
     "servo tick, a scene of one free body",
     "servo tick, a scene of two bodies",
