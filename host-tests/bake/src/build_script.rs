@@ -101,7 +101,7 @@ impl fmt::Debug for BakeError {
 }
 
 impl Bake {
-    /// Bakes this model file, whose path starts from the package's folder.
+    /// Bakes this model file, whose path starts from the package's folder. Of a CAD part `palpate import` makes one.
     pub fn new(model: impl Into<PathBuf>) -> Self {
         Self { model: model.into(), margin: 0.0, tick_limit: TickLimit::BENCH }
     }

@@ -23,6 +23,12 @@ pub enum ModelError {
         /// The parser's message, with line and column.
         message: String,
     },
+    /// A STEP file.
+    #[error("{file}: a STEP file: make a model of it with `cargo palpate import {file} --out MODEL.toml`")]
+    Step {
+        /// The file.
+        file: String,
+    },
     /// The unit is none of those known.
     #[error("{file}: unit \"{unit}\" is unknown: m, cm or mm")]
     Unit {

@@ -82,6 +82,9 @@ impl Model {
     /// The first thing wrong with it.
     pub fn parse(text: &str, file: &str) -> Result<Self, ModelError> {
         let file = || file.to_owned();
+        if text.trim_start().starts_with("ISO-10303-21;") {
+            return Err(ModelError::Step { file: file() });
+        }
         let raw: RawModel = toml::from_str(text)
             .map_err(|error| ModelError::Syntax { file: file(), message: message(text, &error) })?;
         let unit = match raw.unit.as_str() {

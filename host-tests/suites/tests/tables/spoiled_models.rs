@@ -26,6 +26,8 @@ points = [ [[0, 0, -5, 1], [0, 7, -5, 2]], [[7, 0, -5, 1], [7, 7, -5, 1]] ]
 
 /// What is replaced, by what, and what the message must say.
 const SPOILED: &[(&str, &str, &str)] = &[
+    // Another kind of file.
+    ("name = \"good\"", "ISO-10303-21;", "a STEP file: make a model of it with `cargo palpate import "),
     // Points.
     ("  [[3, 0, 1], [3, 9, 1]],\n", "", r#"patch "top": knots_u has 7 knots: 3 points of degree 2 need 6"#),
     ("[[3, 0, 1], [3, 9, 1]]", "[[3, 0, 1]]", r#"patch "top": points[1] has 1 points, points[0] has 2"#),
