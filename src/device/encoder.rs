@@ -1,6 +1,6 @@
 //! Encoder counts to joint angles.
 
-/// A position as an incremental encoder counts it.
+/// A position as an incremental encoder counts it. A board extends a counter of fewer bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Counts(pub i32);

@@ -20,7 +20,8 @@ pub enum Phase {
     Armed = 2,
     /// Rendering force.
     Running = 3,
-    /// Stopped by a fault, which is latched: only a reset leaves this phase.
+    /// Stopped by a fault, which is latched. A new start leaves this phase ([`super::Loop::start`], for which a person
+    /// should have asked), and [`Event::Acknowledged`] after a fault of the last reset.
     Fault = 4,
 }
 
@@ -269,7 +270,7 @@ pub enum Event {
     HomingRefused,
     /// The calibration that is kept cannot be used.
     CalibrationRefused,
-    /// Stop.
+    /// A stop button or the host's stop: [`Fault::Stopped`], latched.
     Stop,
     /// A person has checked the device after a reset that is a fault: clears [`Fault::WatchdogReset`] and
     /// [`Fault::BrownOut`], and no other fault. The loop starts again.

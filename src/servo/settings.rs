@@ -6,7 +6,7 @@ use crate::device::VelocityMethod;
 use crate::math::Vec3;
 use crate::render::{Coupling, Ease, Friction, Passivity, Penalty, Texture};
 
-/// The loop's settings. Start with [`Settings::DEFAULT`].
+/// The loop's settings. Start with [`Settings::DEFAULT`]; [`SettingsError`] has the range of each.
 ///
 /// ```
 /// use palpate::device::presets::WOODEN_HAPTICS_2016 as DEVICE;

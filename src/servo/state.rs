@@ -261,6 +261,35 @@ impl<const JOINTS: usize, W, G> ServoState<JOINTS, W, G> {
     }
 
     /// The fault that stopped the loop, and its tick. Latched.
+    ///
+    /// ```
+    /// # use palpate::device::{Counts, SerialArm, presets::WOODEN_HAPTICS_2016 as DEVICE};
+    /// # use palpate::patch::{Coefficients, Orientation, SecondDerivativeBounds, ShapeBounds, SplinePatch, SplineTable};
+    /// use palpate::servo::{Config, Fault, Input, Output, Servo};
+    /// # static WALL: SplinePatch = SplineTable {
+    /// #     degree: [1, 1],
+    /// #     breaks_u: &[0.0, 1.0],
+    /// #     breaks_v: &[0.0, 1.0],
+    /// #     coefficients: Coefficients::Polynomial(&[[0.0; 3], [0.0, 0.2, 0.0], [0.2, 0.0, 0.0], [0.0; 3]]),
+    /// #     shape: ShapeBounds::unknown(SecondDerivativeBounds::ZERO),
+    /// #     orientation: Orientation::Outward,
+    /// #     size_m: 0.2,
+    /// #     crc: None,
+    /// # }
+    /// # .checked();
+    /// static LOOP: Servo<SplinePatch, SerialArm, 3> = Servo::new(&DEVICE, &WALL, Config::DEFAULT);
+    ///
+    /// let mut state = LOOP.start();
+    /// // The encoders' frames do not come.
+    /// for _ in 0..100 {
+    ///     assert!(matches!(LOOP.tick(&mut state, Input::Lost), Output::Off));
+    /// }
+    /// let (fault, _) = state.fault().expect("latched");
+    /// assert_eq!((fault, fault.code()), (Fault::FrameLost, 1)); // `Display` gives "sensor frame lost or late"
+    /// // Once a person has mended it and asks: as after a reset, force is faded in after a new request.
+    /// state = LOOP.start();
+    /// assert_eq!(state.fault(), None);
+    /// ```
     #[inline]
     pub const fn fault(&self) -> Option<(Fault, u32)> {
         self.faults.first

@@ -223,8 +223,8 @@ pub trait Tracked: Copy + Debug + PartialEq {
         None
     }
 
-    /// A force of the surface's own on the probe, N, which needs no contact: that of a dial's detents. The loop treats it
-    /// as it treats the force of contact.
+    /// A force of the surface's own on the probe, N, in the body's frame, which needs no contact: that of a dial's detents,
+    /// or of a field in an application's own crate. The loop limits it as it limits the force of contact.
     #[inline]
     fn own_force(&self) -> Option<Vec3> {
         None
@@ -237,7 +237,7 @@ pub trait Tracked: Copy + Debug + PartialEq {
 /// The result of a tick that the witness does not keep.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Touched {
-    /// Unit vector out of the body at the witness point, or zero where there is none.
+    /// Unit vector out of the body at the witness point, in the body's frame, or zero where there is none.
     pub normal: Vec3,
     /// Whether the controller's step was rejected.
     pub rejected: bool,

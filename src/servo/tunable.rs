@@ -44,7 +44,8 @@ impl Tuning {
 }
 
 /// A loop whose gains can be changed between two ticks, without a new image. Its state holds a copy of the [`Servo`] in
-/// RAM; the tick is the servo's own. After each start the gains are those it was built with.
+/// RAM; the tick is the servo's own. After each start the gains are those it was built with. Of a servo in a `static` the
+/// compiler leaves out the code of every rendering that it does not have; here all of it stays in flash.
 ///
 /// **The ramp.** Gains move linearly to those requested over [`Settings::soft_start_s`], but not less than 0.1 s and
 /// 100 ticks. They rise and fall alike, in any phase. A request drives nothing by itself, and changes no phase, no fault
@@ -84,7 +85,7 @@ impl Tuning {
 /// let stiffer = Tuning { stiffness_n_per_m: 400.0, max_force_n: 2.0, ..state.tuning() };
 /// state.request(stiffer)?;
 /// while !state.is_settled() {
-///     TUNABLE.tick(&mut state, Input::Sensors { counts: [Counts(0); 3], enable: true });
+///     let _ = TUNABLE.tick(&mut state, Input::Sensors { counts: [Counts(0); 3], enable: true });
 /// }
 /// // 0.2 s of soft start at 1 kHz.
 /// assert_eq!((state.ticks(), state.tuning()), (200, stiffer));
