@@ -25,30 +25,9 @@ impl<D: Displacement> Body<'_, D> {
             Feature::Face(index) => {
                 let Some(face) = self.faces.get(usize::from(index)) else { return };
                 let at_pole = if self.has_poles { self.normal_at_pole(face, state, probe) } else { None };
-                let normal = at_pole.or_else(|| state.witness.normal(&face.patch)).unwrap_or(state.normal);
-                let away = probe - state.witness.surface.point;
-                let gap = away.dot(normal);
-                if gap < 0.0 {
-                    let contact = state.contact;
-                    match contact {
-                        // At a border the probe does not enter at the witness point, unless it is right below it: the
-                        // neighbour decides in the next tick.
-                        Contact::InFront
-                            if !is_inside(state.witness.parameters) && gap * gap < BELOW * away.length_squared() =>
-                        {
-                            return;
-                        }
-                        Contact::InFront | Contact::Touching
-                            if !step.hands_over() && self.releases_at_border(face, state, away) =>
-                        {
-                            return;
-                        }
-                        _ => {}
-                    }
-                }
-                if gap.is_finite() {
-                    (state.normal, state.gap) = (normal, gap);
-                    self.set_contact(state, away, state.contact.next(gap, BoundaryMode::Interior));
+                match at_pole.or_else(|| state.witness.normal(&face.patch)) {
+                    Some(normal) => self.update_contact_on_face(face, state, probe, normal, step),
+                    None => self.keep_normal_on_face(face, state, probe, step),
                 }
             }
             Feature::Edge(index) => {
@@ -78,6 +57,51 @@ impl<D: Displacement> Body<'_, D> {
                 self.update_contact_at_border(state, is_outward);
             }
         }
+    }
+
+    /// The contact on a face, where this is the normal.
+    #[inline(always)]
+    fn update_contact_on_face(&self, face: &Face, state: &mut BodyWitness, probe: Vec3, normal: Vec3, step: &BodyStep) {
+        let away = probe - state.witness.surface.point;
+        let gap = away.dot(normal);
+        // In front contact does not start: the usual case, without the questions of the other.
+        if gap >= 0.0 {
+            if gap < f32::INFINITY {
+                (state.normal, state.gap) = (normal, gap);
+                state.contact = if state.is_audited { Contact::InFront } else { Contact::Behind };
+            }
+            return;
+        }
+        let contact = state.contact;
+        match contact {
+            // At a border the probe does not enter at the witness point, unless it is right below it: the neighbour
+            // decides in the next tick.
+            Contact::InFront if !is_inside(state.witness.parameters) && gap * gap < BELOW * away.length_squared() => {
+                return;
+            }
+            Contact::InFront | Contact::Touching
+                if !step.hands_over() && self.releases_at_border(face, state, away) =>
+            {
+                return;
+            }
+            _ => {}
+        }
+        if gap.is_finite() {
+            (state.normal, state.gap) = (normal, gap);
+            match contact {
+                Contact::Behind => {}
+                Contact::InFront => self.set_contact(state, away, Contact::Touching),
+                Contact::Touching if state.is_audited => {}
+                Contact::Touching => state.contact = Contact::Behind,
+            }
+        }
+    }
+
+    /// The same where there is no normal: the last one stays. Apart, so that other ticks do not load it to choose.
+    #[cold]
+    #[inline(never)]
+    fn keep_normal_on_face(&self, face: &Face, state: &mut BodyWitness, probe: Vec3, step: &BodyStep) {
+        self.update_contact_on_face(face, state, probe, state.normal, step);
     }
 
     /// Whether the probe is deeper inside than the minimum radius of curvature of the face that holds the witness

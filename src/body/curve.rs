@@ -58,16 +58,14 @@ impl SplineCurve<'_> {
     #[inline(never)]
     pub fn evaluate(&self, t: f32) -> CurvePoint {
         tally::curve();
-        let (span, s) = locate(self.breaks, t);
         match self.coefficients {
             Coefficients::Polynomial(entries) => {
-                let [value, along, half] = self.span(entries, span, s);
+                let [value, along, half] = self.span(entries, t);
                 let [point, tangent, half_second] = [value, along, half].map(Vec3::from_array);
                 CurvePoint { point, tangent, half_second }
             }
             Coefficients::Rational(entries) => {
-                let [(a, w), (a_t, w_t), (a_tt, w_tt)] =
-                    self.span(entries, span, s).map(|[x, y, z, w]| (vec3(x, y, z), w));
+                let [(a, w), (a_t, w_t), (a_tt, w_tt)] = self.span(entries, t).map(|[x, y, z, w]| (vec3(x, y, z), w));
                 let inverse = 1.0 / w;
                 let point = a * inverse;
                 let tangent = (a_t - point * w_t) * inverse;
@@ -89,21 +87,20 @@ impl SplineCurve<'_> {
     #[inline(never)]
     pub fn point(&self, t: f32) -> Vec3 {
         tally::curve();
-        let (span, s) = locate(self.breaks, t);
         match self.coefficients {
-            Coefficients::Polynomial(entries) => Vec3::from_array(value(self.powers(entries, span), s)),
+            Coefficients::Polynomial(entries) => Vec3::from_array(value(self.powers(entries, t))),
             Coefficients::Rational(entries) => {
-                let [x, y, z, w] = value(self.powers(entries, span), s);
+                let [x, y, z, w] = value(self.powers(entries, t));
                 vec3(x, y, z) * (1.0 / w)
             }
         }
     }
 
-    /// Value, derivative, and half the second derivative on one span.
+    /// Value, derivative, and half the second derivative at a parameter.
     #[inline]
-    fn span<const D: usize>(&self, entries: &[[f32; D]], span: usize, s: f32) -> [[f32; D]; 3] {
-        let zero = [0.0; D];
-        let Some((highest, lower)) = self.powers(entries, span).split_last() else { return [zero; 3] };
+    fn span<const D: usize>(&self, entries: &[[f32; D]], t: f32) -> [[f32; D]; 3] {
+        let (zero, (powers, s)) = ([0.0; D], self.powers(entries, t));
+        let Some((highest, lower)) = powers.split_last() else { return [zero; 3] };
         let Some((next, lower)) = lower.split_last() else { return [*highest, zero, zero] };
         // The derivative starts with the highest coefficient: a step of Horner's rule before it would multiply zero.
         let (mut value, mut along, mut half) = (horner_step(*highest, s, *next), *highest, zero);
@@ -115,27 +112,30 @@ impl SplineCurve<'_> {
         [value, along, half]
     }
 
-    /// The coefficients of one span.
+    /// The coefficients of the span that holds a parameter, and its distance from the span's centre.
     #[inline]
-    fn powers<'a, const D: usize>(&self, entries: &'a [[f32; D]], span: usize) -> &'a [[f32; D]] {
-        let order = self.degree as usize + 1;
+    fn powers<'a, const D: usize>(&self, entries: &'a [[f32; D]], t: f32) -> (&'a [[f32; D]], f32) {
+        // Most curves have one span, from 0 to 1.
+        if self.breaks.len() == 2 {
+            return (entries, t - 0.5);
+        }
+        let (order, (span, s)) = (self.degree as usize + 1, bisect(self.breaks, t));
         // The constructor counted the entries: the empty slice is never taken, it only keeps a panic out of the tick.
-        entries.get(span * order..(span + 1) * order).unwrap_or(&[])
+        (entries.get(span * order..(span + 1) * order).unwrap_or(&[]), s)
     }
 }
 
 /// Horner's rule.
 #[inline]
-fn value<const D: usize>(powers: &[[f32; D]], s: f32) -> [f32; D] {
-    let Some((highest, lower)) = powers.split_last() else { return [0.0; D] };
-    lower.iter().rev().fold(*highest, |value, coefficient| horner_step(value, s, *coefficient))
-}
-
-/// The span that holds `parameter`, and the distance from its centre.
-#[inline]
-fn locate(breaks: &[f32], parameter: f32) -> (usize, f32) {
-    // Most curves have one span, from 0 to 1.
-    if breaks.len() == 2 { (0, parameter - 0.5) } else { bisect(breaks, parameter) }
+fn value<const D: usize>((powers, s): (&[[f32; D]], f32)) -> [f32; D] {
+    let Some((highest, mut lower)) = powers.split_last() else { return [0.0; D] };
+    let mut value = *highest;
+    // In twos: a step alone ends in other registers than it starts from.
+    while let [rest @ .., next, coefficient] = lower {
+        value = horner_step(horner_step(value, s, *coefficient), s, *next);
+        lower = rest;
+    }
+    if let [coefficient] = lower { horner_step(value, s, *coefficient) } else { value }
 }
 
 #[cfg(test)]

@@ -19,6 +19,8 @@ pub(super) struct EdgeStep {
     pub stretch: f32,
     /// `ΔR · c'`, m².
     pub gradient: f32,
+    /// `‖ΔR‖²`, m².
+    pub squared: f32,
 }
 
 /// Position of a probe relative to the border of a face. `m` is the face's outward conormal there, with the length of
@@ -36,12 +38,6 @@ pub(super) struct BorderSide {
 }
 
 impl BorderSide {
-    /// Whether the probe has left the face: `(Q − c) · m > 0`.
-    #[inline]
-    pub(super) fn is_beyond(&self) -> bool {
-        self.product < 0.0
-    }
-
     /// Prediction of the closest point on the face from its border: the Gauss–Newton step across, shortened by
     /// `stretch`, and Newton's step along, where `½ ‖ΔR‖²` has the second derivative `hessian`, m². Returns the change
     /// of the parameter across, the parameter of the edge, and the first-order fall of `½ ‖ΔR‖²`, m².
@@ -62,7 +58,7 @@ impl EdgeStep {
     pub(super) fn new(point: Vec3, tangent: Vec3, probe: Vec3) -> Self {
         let difference = point - probe;
         let (stretch, gradient) = (tangent.length_squared(), difference.dot(tangent));
-        Self { difference, stretch, gradient }
+        Self { difference, stretch, gradient, squared: difference.length_squared() }
     }
 
     /// The second derivative of `½ ‖ΔR‖²` along the edge, m², by half of the edge's own.
@@ -96,7 +92,7 @@ impl EdgeStep {
         let target = saturate(t - self.gradient / hessian, 0.0, 1.0);
         let change = target - t;
         let (slope, square) = (-self.gradient * change, change * change);
-        let distance = sqrt_from_above(self.difference.length_squared());
+        let distance = sqrt_from_above(self.squared);
         let bend = second * square;
         let twist = third * square * change.abs();
         let length = sqrt_from_above(slope + distance * bend);
@@ -116,32 +112,45 @@ impl EdgeStep {
         let change = -self.gradient / self.stretch;
         let slope = -self.gradient * change;
         let bend = second_derivative * change * change;
-        let (length, distance) = (sqrt_from_above(slope), sqrt_from_above(self.difference.length_squared()));
+        let (length, distance) = (sqrt_from_above(slope), sqrt_from_above(self.squared));
         let gain = slope / (slope + bend * (bend + 2.0 * length + distance));
         let target = t + if gain < 1.0 { gain } else { 1.0 } * change;
         // Also brings a NaN back.
         saturate(target, 0.0, 1.0)
     }
 
-    /// Position of the probe relative to the border of a face, at a point of its edge with this tangent.
-    #[inline]
-    pub(super) fn inward(&self, cross: &Cross, tangent: Vec3, probe: Vec3) -> BorderSide {
+    /// [`BorderSide`]'s product alone: below 0 where the probe is beyond the border of a face, at a point of its edge
+    /// with this tangent.
+    #[inline(always)]
+    pub(super) fn product(&self, cross: &Cross, tangent: Vec3, probe: Vec3) -> f32 {
         match cross {
-            Cross::Plane { across, offset } => {
-                let product = *offset - across.dot(probe);
-                BorderSide { product, square: 1.0, scale: across.length_squared(), skew: 0.0 }
-            }
+            Cross::Plane { across, offset } => *offset - across.dot(probe),
             // The conormal is the part of the cross derivative that is normal to the edge; multiplied by the squared
             // tangent it needs no division.
             Cross::Ruled(cross) => {
-                let (out, skew) = (self.difference.dot(*cross), cross.dot(tangent));
-                if self.stretch <= f32::MIN_POSITIVE {
-                    return BorderSide { product: out, square: f32::INFINITY, scale: 1.0, skew: 0.0 };
+                let out = self.difference.dot(*cross);
+                if self.stretch > f32::MIN_POSITIVE {
+                    self.stretch * out - cross.dot(tangent) * self.gradient
+                } else {
+                    out
                 }
-                let product = self.stretch * out - skew * self.gradient;
+            }
+        }
+    }
+
+    /// Position of the probe relative to that border.
+    #[inline(always)]
+    pub(super) fn inward(&self, cross: &Cross, tangent: Vec3, product: f32) -> BorderSide {
+        match cross {
+            Cross::Plane { across, .. } => {
+                BorderSide { product, square: 1.0, scale: across.length_squared(), skew: 0.0 }
+            }
+            Cross::Ruled(cross) if self.stretch > f32::MIN_POSITIVE => {
+                let skew = cross.dot(tangent);
                 let square = self.stretch * cross.length_squared() - skew * skew;
                 BorderSide { product, square, scale: self.stretch, skew }
             }
+            Cross::Ruled(_) => BorderSide { product, square: f32::INFINITY, scale: 1.0, skew: 0.0 },
         }
     }
 }
@@ -192,8 +201,8 @@ mod tests {
             let probe = vec3(0.1, height, 0.0);
             let along = EdgeStep::new(at.point, at.tangent, probe);
             for separator in &separators() {
-                let inward = along.inward(separator, at.tangent, probe);
-                assert_eq!(inward.is_beyond(), is_beyond, "{height}, {separator:?}");
+                let product = along.product(separator, at.tangent, probe);
+                assert_eq!(product < 0.0, is_beyond, "{height}, {separator:?}");
             }
         }
     }
@@ -206,7 +215,7 @@ mod tests {
         let along = EdgeStep::new(at.point, at.tangent, probe);
         // Across, w = 1/4. EdgeStep, 2 Δt − 3 w = 0.2 where the derivative slants, 2 Δt = 0.2 where it does not.
         for (separator, beside) in separators().iter().zip([0.6, 0.975]) {
-            let inward = along.inward(separator, at.tangent, probe);
+            let inward = along.inward(separator, at.tangent, along.product(separator, at.tangent, probe));
             let ([inside, t], slope) = inward.landing(&along, along.stretch, 0.5, 1.0);
             // A few roundings of numbers near 1.
             assert!((inside - 0.25).abs() < 4.0 * f32::EPSILON, "{inside}");
@@ -215,7 +224,7 @@ mod tests {
             assert!((slope - 1.0).abs() < 8.0 * f32::EPSILON, "{slope}");
         }
         let [plane, _] = separators();
-        let inward = along.inward(&plane, at.tangent, probe);
+        let inward = along.inward(&plane, at.tangent, along.product(&plane, at.tangent, probe));
         assert_eq!(
             inward.landing(&along, along.stretch, 0.5, f32::INFINITY).0[0],
             0.0,

@@ -50,12 +50,6 @@ pub(super) struct Neighbour<'a, D> {
 }
 
 impl<D: Displacement> Neighbour<'_, D> {
-    /// Whether the face's region holds the probe.
-    #[inline(always)]
-    pub(super) fn takes_probe(&self) -> bool {
-        !self.inward.is_beyond()
-    }
-
     /// The entry of the face. `hessian` is the second derivative of `½ ‖ΔR‖²` along the edge, m²; `known` is the
     /// curvature to use if the face has no bound, 1/m.
     #[inline(always)]
@@ -78,7 +72,7 @@ impl<D: Displacement> Neighbour<'_, D> {
 }
 
 impl<D: Displacement> Body<'_, D> {
-    /// A face of an edge, relative to a point of that edge.
+    /// A face of an edge, relative to a point of that edge: if its region holds the probe, or `anyway`.
     #[inline(always)]
     pub(super) fn neighbour(
         &self,
@@ -86,10 +80,16 @@ impl<D: Displacement> Body<'_, D> {
         of: EdgeFace,
         border: &EdgePoint,
         probe: Vec3,
+        anyway: bool,
     ) -> Option<Neighbour<'_, D>> {
         let face = self.faces.get(usize::from(of.face))?;
         let Some(Side::Edge { separator, reversed, .. }) = face.sides.get(usize::from(of.side)) else { return None };
-        let inward = border.along.inward(&self.cross(edge, separator, border.t), border.tangent, probe);
+        let cross = self.cross(edge, separator, border.t);
+        let product = border.along.product(&cross, border.tangent, probe);
+        if product < 0.0 && !anyway {
+            return None;
+        }
+        let inward = border.along.inward(&cross, border.tangent, product);
         Some(Neighbour { patch: self.patch(face), of, is_reversed: u32::from(*reversed), inward })
     }
 
@@ -184,7 +184,7 @@ impl<D: Displacement> Body<'_, D> {
             if is_along_v { (surface.tangent_v, second.half_vv) } else { (surface.tangent_u, second.half_uu) };
         let tangent = if *reversed { -tangent } else { tangent };
         let border = EdgePoint { along: EdgeStep::new(point, tangent, state.probe), tangent, t };
-        let beyond = self.neighbour(edge, other, &border, state.probe)?;
+        let beyond = self.neighbour(edge, other, &border, state.probe, true)?;
         let hessian = border.along.hessian(half_second);
         let entry = beyond.entry(&border, hessian, true, state, bend(self.patch(face), state.gap));
         Some((entry, other.side))

@@ -95,8 +95,7 @@ impl<D: Displacement> Body<'_, D> {
         let faces = if comes_from_face || !step.switched { &edge.faces[..] } else { &[] };
         for of in faces.iter().copied() {
             if of.face != from
-                && let Some(beyond) = self.neighbour(edge, of, &border, probe)
-                && beyond.takes_probe()
+                && let Some(beyond) = self.neighbour(edge, of, &border, probe, false)
             {
                 let entry = beyond.entry(&border, border.along.stretch, is_curved, state, f32::INFINITY);
                 self.enter_face(&entry, is_curved, state, step);

@@ -53,18 +53,30 @@ impl<const KINDS: u32> Body<'_, Rigid<KINDS>> {
             return self.head(word);
         }
         record -= 1;
-        if record < FACE_RECORDS * self.faces.len() {
+        let Locator { nodes, lists, .. } = self.locator;
+        let (of_faces, edges, spokes) = (FACE_RECORDS * self.faces.len(), self.edges.len(), self.spokes.len());
+        let features = of_faces + edges + self.vertices.len() + spokes;
+        // Last and most often first: the lists are most of the words.
+        if record >= features + nodes.len() {
+            record -= features + nodes.len();
+            // Words in records of 16: one each would spend every other reading on the end of a record.
+            let rectangles = records_of(lists.rectangles);
+            let (bytes, record) =
+                if record < rectangles { (lists.rectangles, record) } else { (lists.candidates, record - rectangles) };
+            return if word < WORDS { word_of(bytes, record * WORDS + word) } else { None };
+        }
+        if record < of_faces {
             let Some(face) = at(self.faces, record / FACE_RECORDS) else { return None };
             return match at(&face.sides, record % FACE_RECORDS) {
                 Some(side) => side.word(word),
                 None => face.patch.word(word),
             };
         }
-        record -= FACE_RECORDS * self.faces.len();
+        record -= of_faces;
         if let Some(edge) = at(self.edges, record) {
             return edge.word(word);
         }
-        record -= self.edges.len();
+        record -= edges;
         if let Some(vertex) = at(self.vertices, record) {
             return vertex.word(word);
         }
@@ -72,18 +84,9 @@ impl<const KINDS: u32> Body<'_, Rigid<KINDS>> {
         if let Some(spoke) = at(self.spokes, record) {
             return spoke.word(word);
         }
-        record -= self.spokes.len();
-        let Locator { nodes, lists, .. } = self.locator;
-        if let Some(node) = at(nodes, record) {
-            let (Some(low), Some(high)) = (at(node, 2 * word), at(node, 2 * word + 1)) else { return None };
-            return Some(pair(*low, *high));
-        }
-        record -= nodes.len();
-        // Words in records of 16: one each would spend every other reading on the end of a record.
-        let rectangles = records_of(lists.rectangles);
-        let (bytes, record) =
-            if record < rectangles { (lists.rectangles, record) } else { (lists.candidates, record - rectangles) };
-        if word < WORDS { word_of(bytes, record * WORDS + word) } else { None }
+        let Some(node) = at(nodes, record - spokes) else { return None };
+        let (Some(low), Some(high)) = (at(node, 2 * word), at(node, 2 * word + 1)) else { return None };
+        Some(pair(*low, *high))
     }
 
     /// The number of records.
@@ -158,7 +161,11 @@ const fn records_of(bytes: &[u8]) -> usize {
 /// Four bytes; zeros past the last one.
 const fn word_of(bytes: &[u8], index: usize) -> Option<u32> {
     let (first, mut word, mut byte) = (4 * index, 0, 0);
-    if first >= bytes.len() {
+    let Some((_, rest)) = bytes.split_at_checked(first) else { return None };
+    if let Some(word) = rest.first_chunk() {
+        return Some(u32::from_le_bytes(*word));
+    }
+    if rest.is_empty() {
         return None;
     }
     while byte < 4 && first + byte < bytes.len() {

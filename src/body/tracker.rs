@@ -354,7 +354,7 @@ impl<D: Displacement> Body<'_, D> {
         let next = match minimiser {
             Ok(next) => next,
             Err(Some(next)) if edge.curve.coefficients.tag() != 0 && !core::mem::take(&mut state.takes_part) => {
-                return self.try_along_edge(index, edge, along, next, state);
+                return self.try_along_edge(edge, along, next, state);
             }
             Err(_) => along.advanced(bounds[0], t),
         };
@@ -362,23 +362,22 @@ impl<D: Displacement> Body<'_, D> {
             return Outcome::AtRest;
         }
         let reached = self.on_edge(edge, next);
-        let before = along.difference.length_squared();
-        if !self.is_no_rise((reached.point - probe).length_squared(), before, reached.point, probe) {
+        if !self.is_no_rise((reached.point - probe).length_squared(), along.squared, reached.point, probe) {
             return Outcome::Rejected;
         }
-        state.rest_on_edge(index, next, &reached);
+        state.move_on_edge(next, &reached);
         Outcome::Moved
     }
 
     /// An uncertified second-order step along a rational edge, on the terms of one on a face (theory §12). A rejected one
     /// is followed by a certified one.
     #[inline(never)]
-    fn try_along_edge(&self, index: u16, edge: &Edge, along: &EdgeStep, next: f32, state: &mut BodyWitness) -> Outcome {
+    fn try_along_edge(&self, edge: &Edge, along: &EdgeStep, next: f32, state: &mut BodyWitness) -> Outcome {
         let (reached, probe) = (self.on_edge(edge, next), state.probe);
         let fall = MIN_FALL * along.gradient * (state.witness.parameters[0] - next);
-        let before = along.difference.length_squared() - fall;
+        let before = along.squared - fall;
         if self.is_no_rise((reached.point - probe).length_squared(), before, reached.point, probe) {
-            state.rest_on_edge(index, next, &reached);
+            state.move_on_edge(next, &reached);
             return Outcome::Moved;
         }
         state.takes_part = true;
@@ -417,13 +416,20 @@ impl BodyWitness {
     #[inline]
     pub(super) fn rest_on_edge(&mut self, index: u16, t: f32, at: &CurvePoint) {
         self.feature = Feature::Edge(index);
-        self.witness.parameters = [t, 0.0];
+        self.witness.parameters[1] = 0.0;
+        self.witness.surface.tangent_v = Vec3::ZERO;
+        self.witness.is_free = false;
+        self.move_on_edge(t, at);
+    }
+
+    /// The same of a witness point that is on the edge already.
+    #[inline]
+    fn move_on_edge(&mut self, t: f32, at: &CurvePoint) {
+        self.witness.parameters[0] = t;
         self.witness.surface.point = at.point;
         self.witness.surface.tangent_u = at.tangent;
-        self.witness.surface.tangent_v = Vec3::ZERO;
         self.witness.second.half_uu = at.half_second;
         self.witness.mode = if t <= 0.0 || t >= 1.0 { BoundaryMode::Corner } else { BoundaryMode::LowerV };
-        self.witness.is_free = false;
         self.witness.halvings = 0;
     }
 }

@@ -48,16 +48,16 @@ fn saturate<const JOINTS: usize>(
     felt: [f32; JOINTS],
     weight: [f32; JOINTS],
 ) -> ([Duty; JOINTS], f32) {
-    let mut fractions = [[0.0; 2]; JOINTS];
-    let mut scale = 1.0;
-    for ((fractions, motor), (felt, weight)) in fractions.iter_mut().zip(motors).zip(felt.into_iter().zip(weight)) {
-        *fractions = [motor.fraction(felt), motor.fraction(weight)];
-        // A weight beyond the scale shows in the remaining range, if there is a contact torque.
-        scale = least_scale(scale, *fractions);
-    }
-    if scale < 0.0 {
-        scale = relieve(&mut fractions);
-    }
+    let fractions =
+        core::array::from_fn(|joint| [felt[joint], weight[joint]].map(|torque| motors[joint].fraction(torque)));
+    // A weight beyond the scale shows in the remaining range, if there is a contact torque.
+    let scale = fractions.into_iter().fold(1.0, least_scale);
+    if scale < 0.0 { relieve(fractions) } else { scaled(fractions, scale) }
+}
+
+/// The duties of each joint's requested fraction, scaled, and the carried one.
+#[inline(always)]
+fn scaled<const JOINTS: usize>(fractions: [[f32; 2]; JOINTS], scale: f32) -> ([Duty; JOINTS], f32) {
     (fractions.map(|[asked, carried]| Duty::from_fraction(asked * scale + carried)), scale)
 }
 
@@ -111,7 +111,8 @@ fn relieved<const JOINTS: usize>(weight: [f32; JOINTS], limits: &[f32; JOINTS]) 
 /// Scales a gravity compensation beyond the motors' range to what they can give. Each joint has the requested torque
 /// and the carried one.
 #[cold]
-fn relieve<const JOINTS: usize>(fractions: &mut [[f32; 2]; JOINTS]) -> f32 {
+#[inline(never)]
+fn relieve<const JOINTS: usize>(mut fractions: [[f32; 2]; JOINTS]) -> ([Duty; JOINTS], f32) {
     let heaviest = fractions.iter().fold(1.0, |most: f32, [_, carried]| carried.abs().max(most));
     let mut scale = 1.0;
     for fractions in fractions.iter_mut() {
@@ -119,7 +120,7 @@ fn relieve<const JOINTS: usize>(fractions: &mut [[f32; 2]; JOINTS]) -> f32 {
         scale = least_scale(scale, *fractions);
     }
     // Below 0 by rounding.
-    if scale > 0.0 { scale } else { 0.0 }
+    scaled(fractions, if scale > 0.0 { scale } else { 0.0 })
 }
 
 /// The scale of the contact torques, `scale` at most, for a joint's fraction `asked` to fit in the range left by

@@ -55,8 +55,10 @@ where
     // The first counts have nothing to have moved from.
     let first = sensors.counts.is_none();
     if !first {
-        let believable = |(angle, last): (&f32, &f32)| (angle - last).abs() <= max_move;
-        if !angles.iter().zip(&before).all(believable) {
+        let moves = || angles.iter().zip(&before).map(|(angle, last)| (angle - last).abs());
+        // The usual case, by one comparison: a rounded sum is not below any of its terms.
+        let in_all = moves().fold(0.0, |sum, each| sum + each);
+        if !(in_all <= max_move || moves().all(|each| each <= max_move)) {
             return Err(Fault::JointJumped);
         }
         let memories = sensors.rates.iter_mut().zip(&mut sensors.lags).zip(estimators);

@@ -308,12 +308,13 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         } else {
             self.guard.force_not_requested(&mut state.guard);
         }
+        let ticks = state.ticks;
         if let Some(limits) = self.core.safety.stuck
             && !self.guard.withholds_force(&state.guard)
             && state.sensors.stillness.is_broken(
                 limits,
                 // In steps of an eighth of a second at most: after twelve days, when the ticks of 4 kHz start again.
-                (state.ticks as f32 * self.core.period * 64.0) as u32 as u8,
+                || (ticks as f32 * self.core.period * 64.0) as u32 as u8,
                 &self.core.device.dry_friction_n_m,
                 &counts,
                 probe,

@@ -255,7 +255,7 @@ impl<const JOINTS: usize> Stillness<JOINTS> {
     pub(super) fn is_broken(
         &mut self,
         limits: StuckLimits,
-        now: u8,
+        now: impl Fn() -> u8,
         friction: &[f32; JOINTS],
         counts: &[Counts; JOINTS],
         probe: Vec3,
@@ -277,7 +277,7 @@ impl<const JOINTS: usize> Stillness<JOINTS> {
             let friction = friction[joint];
             let bears = felt[joint].abs() > limits.load * friction && friction > 0.0;
             if self.pieces[joint] == 0 {
-                self.since[joint] = now;
+                self.since[joint] = now();
             }
             self.pieces[joint] = self.pieces[joint].saturating_add(u8::from(bears));
         }
@@ -289,7 +289,7 @@ impl<const JOINTS: usize> Stillness<JOINTS> {
         }
         let least = limits.travel_m * LEAST;
         let least = if least < LONGEST { least } else { LONGEST };
-        f32::from(now.wrapping_sub(self.since[joint])) >= least
+        f32::from(now().wrapping_sub(self.since[joint])) >= least
     }
 }
 
@@ -350,7 +350,7 @@ mod stuck_tests {
             let probe = Vec3::X * (way as f32 / 3_000.0);
             stillness.is_broken(
                 LIMITS,
-                (*tick as f32 / rate * 64.0) as u32 as u8,
+                || (*tick as f32 / rate * 64.0) as u32 as u8,
                 &[friction; 2],
                 &counts,
                 probe,
