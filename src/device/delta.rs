@@ -1,6 +1,7 @@
 //! The three-legged delta of Stamper's kind, as in the Novint Falcon.
 
-use super::{GRAVITY, Kinematics, ProbePose};
+use super::device_error::{all_of, centre, is_unit, lengths, offsets, weights};
+use super::{DeviceError, GRAVITY, Kinematics, ProbePose};
 use crate::math::{Vec3, atan2, sin_cos, sqrt, vec3};
 
 /// Newton steps after the closed-form start. On the Falcon, over its workspace, the start is off by 2.9 mm, and steps
@@ -139,6 +140,37 @@ impl Delta {
     }
 }
 
+impl Delta {
+    /// As [`Kinematics::check`], for constants.
+    ///
+    /// The weight of a joint: its thigh's, and all that hangs on the probe at the end of it, held out level. Towards a
+    /// singularity a motor takes more: on the Falcon almost twice as much.
+    ///
+    /// # Errors
+    /// The first number that no such device has.
+    pub const fn check(&self, holds_n_m: [f32; 3]) -> Result<(), DeviceError> {
+        let Self { thigh_m, shin_m, stub_m, reach_m, side_m, directions: [a, b, c], .. } = *self;
+        if !(is_unit(&a) && is_unit(&b) && is_unit(&c)) {
+            return Err(DeviceError::Mechanism("legs"));
+        }
+        if !is_unit(&self.up.to_array()) {
+            return Err(DeviceError::Mechanism("up"));
+        }
+        if !(self.carried_mass_kg >= 0.0 && self.carried_mass_kg < f32::INFINITY) {
+            return Err(DeviceError::Mass("carried_mass"));
+        }
+        let (out, moment) =
+            (reach_m.abs() + side_m.abs(), self.carried_mass_kg * thigh_m + self.thigh_moment_kg_m.abs());
+        all_of!(
+            lengths(&[("thigh", thigh_m), ("shin", shin_m)]),
+            offsets(&[("stub", stub_m), ("reach", reach_m), ("side", side_m)]),
+            if stub_m >= 0.0 { Ok(()) } else { Err(DeviceError::Mechanism("stub")) },
+            centre(&self.workspace_centre_m.to_array(), out + thigh_m + shin_m + stub_m),
+            weights([moment; 3], holds_n_m)
+        )
+    }
+}
+
 impl Kinematics<3> for Delta {
     #[inline]
     fn pose(&self, angles: [f32; 3]) -> Option<ProbePose<3>> {
@@ -171,5 +203,9 @@ impl Kinematics<3> for Delta {
             *torque += GRAVITY * self.thigh_moment_kg_m * (leg.turn.dot(self.up) / self.thigh_m);
         }
         Some((pose, torques))
+    }
+
+    fn check(&self, holds_n_m: [f32; 3]) -> Result<(), DeviceError> {
+        Self::check(self, holds_n_m)
     }
 }

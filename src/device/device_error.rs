@@ -1,10 +1,10 @@
 //! Whether a device's numbers can be those of a device.
 
-use super::Device;
+use super::{Device, GRAVITY};
 use thiserror::Error;
 
 /// Which constant of a device is invalid, and of which joint, counted from 0.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum DeviceError {
     /// An encoder's angle per count is zero or not finite, or its angle at zero is not finite.
@@ -27,7 +27,104 @@ pub enum DeviceError {
     /// A limit of the whole device is not positive and finite.
     #[error("minimum margin, maximum rate, force, stiffness and damping must be positive and finite")]
     Limit,
+    /// A number of the mechanism, by the name that a device file has for it.
+    #[error(
+        "mechanism.{0}: a length must be 0.001 to 2 m, an offset −2 to 2 m, a side 1 or −1, a direction a unit vector"
+    )]
+    Mechanism(&'static str),
+    /// The centre of the workspace is farther away than the mechanism reaches.
+    #[error("mechanism: the workspace's centre is out of the mechanism's reach")]
+    Centre,
+    /// A mass of the mechanism is negative or not finite.
+    #[error("mechanism.{0}: must be finite and not negative")]
+    Mass(&'static str),
+    /// A motor cannot hold the links' weight.
+    #[error(
+        "joint {joint}: gravity compensation takes {takes_n_m:.2} N·m, and its motor holds {holds_n_m:.2} N·m: check the \
+         mechanism's masses, and the motor's torque constant, current and ratio"
+    )]
+    Weight {
+        /// Which joint.
+        joint: usize,
+        /// Torque for its links held out level, N·m.
+        takes_n_m: f32,
+        /// Torque of its motor, N·m.
+        holds_n_m: f32,
+    },
 }
+
+/// Lengths of a mechanism by name: 1 mm to 2 m.
+pub(super) const fn lengths(all: &[(&'static str, f32)]) -> Result<(), DeviceError> {
+    let mut at = 0;
+    while at < all.len() {
+        let (name, length) = all[at];
+        if !(length >= 0.001 && length <= 2.0) {
+            return Err(DeviceError::Mechanism(name));
+        }
+        at += 1;
+    }
+    Ok(())
+}
+
+/// Offsets of a mechanism by name: at most 2 m either way.
+pub(super) const fn offsets(all: &[(&'static str, f32)]) -> Result<(), DeviceError> {
+    let mut at = 0;
+    while at < all.len() {
+        let (name, offset) = all[at];
+        if !(offset >= -2.0 && offset <= 2.0) {
+            return Err(DeviceError::Mechanism(name));
+        }
+        at += 1;
+    }
+    Ok(())
+}
+
+/// Whether a vector has the length 1, to a part in a thousand.
+pub(super) const fn is_unit(vector: &[f32]) -> bool {
+    (squared(vector) - 1.0).abs() < 2e-3
+}
+
+const fn squared(vector: &[f32]) -> f32 {
+    let (mut at, mut sum) = (0, 0.0);
+    while at < vector.len() {
+        sum += vector[at] * vector[at];
+        at += 1;
+    }
+    sum
+}
+
+/// The centre of the workspace, from where the links start, against their reach; metres.
+pub(super) const fn centre(from_start: &[f32], reach_m: f32) -> Result<(), DeviceError> {
+    if squared(from_start) <= reach_m * reach_m { Ok(()) } else { Err(DeviceError::Centre) }
+}
+
+/// Each joint's links, as mass times lever, kg·m, against the torque that its motor holds.
+pub(super) const fn weights<const JOINTS: usize>(
+    moments_kg_m: [f32; JOINTS],
+    holds_n_m: [f32; JOINTS],
+) -> Result<(), DeviceError> {
+    let mut joint = 0;
+    while joint < JOINTS {
+        let (takes_n_m, holds_n_m) = (GRAVITY * moments_kg_m[joint].abs(), holds_n_m[joint]);
+        let is_held = takes_n_m <= holds_n_m;
+        if !is_held {
+            return Err(DeviceError::Weight { joint, takes_n_m, holds_n_m });
+        }
+        joint += 1;
+    }
+    Ok(())
+}
+
+/// The error of a check, for a caller that is const.
+macro_rules! all_of {
+    ($($check:expr),+) => {{
+        $(if let Err(error) = $check {
+            return Err(error);
+        })+
+        Ok(())
+    }};
+}
+pub(super) use all_of;
 
 const fn is_positive(number: f32) -> bool {
     number > 0.0 && number < f32::INFINITY
@@ -38,7 +135,17 @@ const fn is_factor(number: f32) -> bool {
 }
 
 impl<K, const JOINTS: usize> Device<K, JOINTS> {
-    /// Checks every number but the mechanism's.
+    /// The torque of each joint's motor at full duty, N·m, for [`super::Kinematics::check`].
+    pub const fn full_torques_n_m(&self) -> [f32; JOINTS] {
+        let (mut joint, mut torques) = (0, [0.0; JOINTS]);
+        while joint < JOINTS {
+            torques[joint] = self.motors[joint].torque_at_full_n_m.abs();
+            joint += 1;
+        }
+        torques
+    }
+
+    /// Checks every number but the mechanism's, which has its own check: [`super::Kinematics::check`].
     ///
     /// # Errors
     /// The first that no device has.
@@ -80,10 +187,12 @@ impl<K, const JOINTS: usize> Device<K, JOINTS> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::device::{
-        Encoder, Motor,
-        presets::{GIMBAL_KNOB, WOODEN_HAPTICS_2016 as DEVICE},
+    use crate::device::presets::{
+        GIMBAL_KNOB, HAPKIT, HAPLY_2DIY_V3, HAPLY_KIT_V1, NOVINT_FALCON, PHANTOM_PREMIUM, POLHEM_V2,
+        WOODEN_HAPTICS_2016 as DEVICE,
     };
+    use crate::device::{Delta, Encoder, FiveBar, Kinematics, Motor, SerialArm};
+    use crate::math::vec3;
 
     #[test]
     fn every_number_that_no_device_has_is_refused_by_its_joint() {
@@ -115,5 +224,86 @@ mod tests {
         device = DEVICE;
         device.dry_friction_n_m[0] = -0.1;
         assert_eq!(device.check(), Err(DeviceError::Friction(0)));
+    }
+
+    /// Checks a device, its mechanism with it.
+    fn whole<K: Kinematics<JOINTS>, const JOINTS: usize>(device: &Device<K, JOINTS>) -> Result<(), DeviceError> {
+        device.check().and_then(|()| device.kinematics.check(device.full_torques_n_m()))
+    }
+
+    #[test]
+    fn a_mechanism_is_refused_by_its_entry_and_every_preset_passes() {
+        let all = [
+            whole(&DEVICE),
+            whole(&PHANTOM_PREMIUM),
+            whole(&POLHEM_V2),
+            whole(&NOVINT_FALCON),
+            whole(&HAPLY_2DIY_V3),
+            whole(&HAPLY_KIT_V1),
+            whole(&HAPKIT),
+            whole(&GIMBAL_KNOB),
+        ];
+        assert_eq!(all, [Ok(()); 8]);
+        let arm = DEVICE.kinematics;
+        let of = |arm: SerialArm| whole(&Device { kinematics: arm, ..DEVICE });
+        for bad in [-0.2, 0.0, 200.0, f32::NAN] {
+            assert_eq!(of(SerialArm { first_link_m: bad, ..arm }), Err(DeviceError::Mechanism("first_link")));
+        }
+        assert_eq!(of(SerialArm { workspace_centre_m: vec3(9.0, 0.0, 0.0), ..arm }), Err(DeviceError::Centre));
+        // Links of 205 and 245 mm start 80 mm above the foot: the farthest point upright is 530 mm above it.
+        let upright = |z| of(SerialArm { workspace_centre_m: vec3(0.0, 0.0, z), ..arm });
+        assert_eq!((upright(0.529), upright(0.531)), (Ok(()), Err(DeviceError::Centre)));
+        let delta = Delta { up: vec3(0.0, 2.0, 0.0), ..NOVINT_FALCON.kinematics };
+        assert_eq!(delta.check([1.0; 3]), Err(DeviceError::Mechanism("up")));
+        let delta = Delta { carried_mass_kg: -0.1, ..NOVINT_FALCON.kinematics };
+        assert_eq!(delta.check([1.0; 3]), Err(DeviceError::Mass("carried_mass")));
+        let five_bar = FiveBar { side: 0.5, ..HAPLY_2DIY_V3.kinematics };
+        assert_eq!(five_bar.check(), Err(DeviceError::Mechanism("side")));
+    }
+
+    #[test]
+    fn a_weight_that_its_motor_cannot_hold_is_refused_with_both_numbers() {
+        // 0.0259 N·m/A, 3 A, 12:1: 0.9324 N·m hold 0.4636 kg at the end of 205 mm, and 0.3879 kg at 245 mm.
+        let of = |masses| SerialArm { end_masses_kg: masses, ..DEVICE.kinematics }.check(DEVICE.full_torques_n_m());
+        assert_eq!((of([0.463, 0.387]), of([-0.463, -0.387])), (Ok(()), Ok(())));
+        for (masses, joint, takes) in
+            [([-5.0, 0.0], 1, 10.055_25), ([0.0, 50.0], 2, 120.172_5), ([0.464, 0.0], 1, 0.933_1)]
+        {
+            let Err(DeviceError::Weight { joint: refused, takes_n_m, holds_n_m }) = of(masses) else {
+                panic!("{masses:?}")
+            };
+            assert_eq!(refused, joint);
+            assert!((takes_n_m - takes).abs() < 1e-4 && (holds_n_m - 0.932_4).abs() < 1e-5, "{takes_n_m} {holds_n_m}");
+        }
+        assert!(of([f32::NAN, 0.0]).is_err());
+    }
+
+    /// The most that a pose of the workspace takes, as a share of what the check assumes: what it lets just through.
+    fn share<K: Kinematics<3>>(device: &Device<K, 3>) -> f32 {
+        let mut assumed = [0.0; 3];
+        while let Err(DeviceError::Weight { joint, takes_n_m, .. }) = device.kinematics.check(assumed) {
+            assumed[joint] = takes_n_m;
+        }
+        let at = |joint: usize, step: usize| {
+            let [least, most] = device.joint_range_rad[joint];
+            least + (most - least) * step as f32 / 24.0
+        };
+        let poses = (0..25 * 25 * 25).map(|step| [at(0, step % 25), at(1, step / 25 % 25), at(2, step / 625)]);
+        let shares = poses.filter(|angles| device.in_workspace(*angles)).flat_map(|angles| {
+            let torques = device.kinematics.holding_torques(angles);
+            core::array::from_fn::<f32, 3, _>(|joint| {
+                if torques[joint] == 0.0 { 0.0 } else { torques[joint].abs() / assumed[joint] }
+            })
+        });
+        shares.fold(0.0, f32::max)
+    }
+
+    #[test]
+    fn the_weight_that_a_check_assumes_is_that_of_the_worst_pose() {
+        let (serial, linkage, delta) = (share(&DEVICE), share(&POLHEM_V2), share(&NOVINT_FALCON));
+        // A serial arm's is exact. The others' levers are those of the middle: towards a singularity more is taken.
+        assert!(serial > 0.99 && serial <= 1.0, "{serial}");
+        assert!(linkage > 0.9 && linkage < 1.2, "{linkage}");
+        assert!(delta > 0.9 && delta < 1.9, "{delta}");
     }
 }

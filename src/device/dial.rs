@@ -1,6 +1,7 @@
 //! A dial: one joint that turns on and on.
 
-use super::{CoggingMap, Kinematics, ProbePose};
+use super::device_error::lengths;
+use super::{CoggingMap, DeviceError, Kinematics, ProbePose};
 use crate::math::vec3;
 
 /// A dial on a motor's shaft, rendered at its rim.
@@ -24,6 +25,16 @@ pub struct Dial {
     pub cogging: Option<CoggingMap>,
 }
 
+impl Dial {
+    /// As [`Kinematics::check`], for constants.
+    ///
+    /// # Errors
+    /// The first number that no such device has.
+    pub const fn check(&self) -> Result<(), DeviceError> {
+        lengths(&[("radius", self.radius_m)])
+    }
+}
+
 impl Kinematics<1> for Dial {
     #[inline]
     fn pose(&self, [angle]: [f32; 1]) -> Option<ProbePose<1>> {
@@ -37,5 +48,9 @@ impl Kinematics<1> for Dial {
             None => 0.0,
         };
         Some((self.pose([angle])?, [torque]))
+    }
+
+    fn check(&self, _: [f32; 1]) -> Result<(), DeviceError> {
+        Self::check(self)
     }
 }

@@ -1,6 +1,7 @@
 //! The planar five-bar of pantographs, and of arms that drive their second link through a rod.
 
-use super::{Kinematics, ProbePose};
+use super::device_error::{all_of, centre, lengths, offsets};
+use super::{DeviceError, Kinematics, ProbePose};
 use crate::math::{Vec2, Vec3, sin_cos, sqrt, vec2};
 
 /// Two cranks on fixed pivots, joined by two rods that meet at a hinge.
@@ -112,6 +113,32 @@ impl FiveBar {
     }
 }
 
+impl FiveBar {
+    /// The check of all but the centre of the workspace.
+    pub(super) const fn check_links(&self) -> Result<(), DeviceError> {
+        let Self { second_pivot_m, cranks_m: [crank_a, crank_b], rods_m: [rod_a, rod_b], side, tool_m, .. } = *self;
+        all_of!(
+            lengths(&[("cranks", crank_a), ("cranks", crank_b), ("rods", rod_a), ("rods", rod_b)]),
+            lengths(&[("tool", tool_m.abs())]),
+            offsets(&[("second_pivot", second_pivot_m)]),
+            if side.abs() == 1.0 { Ok(()) } else { Err(DeviceError::Mechanism("side")) }
+        )
+    }
+
+    /// How far the tool goes from the first pivot, metres.
+    pub(super) const fn reach_m(&self) -> f32 {
+        self.cranks_m[0] + self.tool_m.abs()
+    }
+
+    /// As [`Kinematics::check`], for constants.
+    ///
+    /// # Errors
+    /// The first number that no such device has.
+    pub const fn check(&self) -> Result<(), DeviceError> {
+        all_of!(self.check_links(), centre(&self.workspace_centre_m.to_array(), self.reach_m()))
+    }
+}
+
 impl Kinematics<2> for FiveBar {
     #[inline]
     fn pose(&self, angles: [f32; 2]) -> Option<ProbePose<2>> {
@@ -119,5 +146,9 @@ impl Kinematics<2> for FiveBar {
         let tool = self.tool(&closed);
         let flat = |v: Vec2| Vec3::new(v.x, v.y, 0.0);
         Some(ProbePose { position: flat(tool.place - self.workspace_centre_m), jacobian: tool.motion.map(flat) })
+    }
+
+    fn check(&self, _: [f32; 2]) -> Result<(), DeviceError> {
+        Self::check(self)
     }
 }

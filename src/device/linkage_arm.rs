@@ -1,7 +1,8 @@
 //! The three-joint arm whose second link is driven by a crank and a rod, as in Polhem.
 
+use super::device_error::{all_of, centre, offsets, weights};
 use super::five_bar::{Closed, left};
-use super::{FiveBar, GRAVITY, Kinematics, ProbePose};
+use super::{DeviceError, FiveBar, GRAVITY, Kinematics, ProbePose};
 use crate::math::{Vec2, Vec3, sin_cos, vec3};
 
 /// A link's mass and where its centre lies in the link's own frame.
@@ -86,6 +87,37 @@ impl LinkageArm {
     }
 }
 
+impl LinkageArm {
+    /// As [`Kinematics::check`], for constants.
+    ///
+    /// The weight of each crank's joint: its own, and those of the rods where the crank carries them, levers as in a
+    /// parallelogram, all held out level. Towards a singularity a motor takes more.
+    ///
+    /// # Errors
+    /// The first number that no such device has.
+    pub const fn check(&self, holds_n_m: [f32; 3]) -> Result<(), DeviceError> {
+        let Self { linkage, pivot_reach_m, workspace_centre_m, masses } = *self;
+        let ([crank_a, crank_b], [rod_a, rod_b]) = (linkage.cranks_m, linkage.rods_m);
+        let (mut moments, mut link) = ([0.0; 4], 0);
+        while link < 4 {
+            let LinkMass { mass_kg, along_m, across_m } = masses[link];
+            if !(mass_kg >= 0.0 && mass_kg < f32::INFINITY) {
+                return Err(DeviceError::Mass("masses"));
+            }
+            moments[link] = mass_kg * (along_m.abs() + across_m.abs());
+            link += 1;
+        }
+        let first = moments[0] + masses[2].mass_kg * crank_a + moments[3] * crank_a / rod_b;
+        let second = moments[1] + masses[3].mass_kg * crank_b + moments[2] * crank_b / rod_a;
+        all_of!(
+            linkage.check_links(),
+            offsets(&[("pivot_reach", pivot_reach_m)]),
+            centre(&workspace_centre_m.to_array(), pivot_reach_m.abs() + linkage.reach_m()),
+            weights([0.0, first, second], holds_n_m)
+        )
+    }
+}
+
 impl Kinematics<3> for LinkageArm {
     #[inline]
     fn pose(&self, angles: [f32; 3]) -> Option<ProbePose<3>> {
@@ -106,5 +138,9 @@ impl Kinematics<3> for LinkageArm {
         };
         let [first, second] = self.weight(&closed);
         Some((pose, [0.0, first, second]))
+    }
+
+    fn check(&self, holds_n_m: [f32; 3]) -> Result<(), DeviceError> {
+        Self::check(self, holds_n_m)
     }
 }

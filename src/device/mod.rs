@@ -66,6 +66,22 @@ pub trait Kinematics<const JOINTS: usize> {
     fn holding_torques(&self, angles: [f32; JOINTS]) -> [f32; JOINTS] {
         self.held_pose(angles).map_or([0.0; JOINTS], |(_, torques)| torques)
     }
+
+    /// Checks the mechanism's numbers: lengths, the centre of the workspace, and that no joint's links weigh more than
+    /// its motor holds, N·m. The mechanisms of this library have it as a `const fn`, for a constant:
+    ///
+    /// ```
+    /// use palpate::device::presets::WOODEN_HAPTICS_2016 as DEVICE;
+    ///
+    /// const _: () = assert!(DEVICE.check().is_ok() && DEVICE.kinematics.check(DEVICE.full_torques_n_m()).is_ok());
+    /// ```
+    ///
+    /// # Errors
+    /// The first number that no device has. A mechanism without a check of its own has none.
+    fn check(&self, holds_n_m: [f32; JOINTS]) -> Result<(), DeviceError> {
+        let _ = holds_n_m;
+        Ok(())
+    }
 }
 
 /// A device as the servo sees it: mechanism, encoders, motors and limits. Lives in flash.

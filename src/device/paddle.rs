@@ -1,6 +1,7 @@
 //! The one-joint paddle of the Hapkit kind.
 
-use super::{GRAVITY, Kinematics, ProbePose};
+use super::device_error::{all_of, lengths, weights};
+use super::{DeviceError, GRAVITY, Kinematics, ProbePose};
 use crate::math::{sin_cos, vec3};
 
 /// A handle on one axis.
@@ -27,6 +28,16 @@ pub struct Paddle {
     pub mass_moment_kg_m: f32,
 }
 
+impl Paddle {
+    /// As [`Kinematics::check`], for constants.
+    ///
+    /// # Errors
+    /// The first number that no such device has.
+    pub const fn check(&self, holds_n_m: [f32; 1]) -> Result<(), DeviceError> {
+        all_of!(lengths(&[("handle", self.handle_m)]), weights([self.mass_moment_kg_m], holds_n_m))
+    }
+}
+
 impl Kinematics<1> for Paddle {
     #[inline]
     fn pose(&self, [angle]: [f32; 1]) -> Option<ProbePose<1>> {
@@ -39,5 +50,9 @@ impl Kinematics<1> for Paddle {
         let torque =
             if self.mass_moment_kg_m == 0.0 { 0.0 } else { -GRAVITY * self.mass_moment_kg_m * sin_cos(angle).0 };
         Some((self.pose([angle])?, [torque]))
+    }
+
+    fn check(&self, holds_n_m: [f32; 1]) -> Result<(), DeviceError> {
+        Self::check(self, holds_n_m)
     }
 }

@@ -1,6 +1,7 @@
 //! The serial three-joint arm of WoodenHaptics and of the Phantom.
 
-use super::{GRAVITY, Kinematics, ProbePose};
+use super::device_error::{all_of, centre, lengths, offsets, weights};
+use super::{DeviceError, GRAVITY, Kinematics, ProbePose};
 use crate::math::{Vec3, sin_cos, vec3};
 
 /// A turntable that carries a parallelogram of two links.
@@ -43,6 +44,24 @@ pub struct SerialArm {
     pub end_masses_kg: [f32; 2],
 }
 
+impl SerialArm {
+    /// As [`Kinematics::check`], for constants.
+    ///
+    /// # Errors
+    /// The first number that no such device has.
+    pub const fn check(&self, holds_n_m: [f32; 3]) -> Result<(), DeviceError> {
+        let Self { base_height_m, first_link_m, second_link_m, workspace_centre_m, end_masses_kg } = *self;
+        let [x, y, z] = workspace_centre_m.to_array();
+        let [first, second] = end_masses_kg;
+        all_of!(
+            lengths(&[("first_link", first_link_m), ("second_link", second_link_m)]),
+            offsets(&[("base_height", base_height_m)]),
+            centre(&[x, y, z - base_height_m], first_link_m + second_link_m),
+            weights([0.0, first * first_link_m, second * second_link_m], holds_n_m)
+        )
+    }
+}
+
 impl Kinematics<3> for SerialArm {
     // Always: with a second caller it would be a call in the tick, of 42 instructions.
     #[inline(always)]
@@ -70,5 +89,9 @@ impl Kinematics<3> for SerialArm {
         let [_, first, second] = pose.jacobian;
         let [first_mass, second_mass] = self.end_masses_kg;
         Some((pose, [0.0, GRAVITY * first_mass * first.z, GRAVITY * second_mass * second.z]))
+    }
+
+    fn check(&self, holds_n_m: [f32; 3]) -> Result<(), DeviceError> {
+        Self::check(self, holds_n_m)
     }
 }

@@ -113,6 +113,10 @@ enum {
     PALPATE_DEVICE_FRICTION = 34,          /**< Dry friction negative or not finite. */
     PALPATE_DEVICE_RANGE = 35,             /**< A least angle not below the greatest, or no whole counts a turn. */
     PALPATE_DEVICE_LIMIT = 36,             /**< A limit of the whole device not positive and finite. */
+    PALPATE_DEVICE_MECHANISM = 37,         /**< A length or direction of the mechanism that no device has. */
+    PALPATE_DEVICE_CENTRE = 38,            /**< The workspace's centre out of the mechanism's reach. */
+    PALPATE_DEVICE_MASS = 39,              /**< A mass of the mechanism negative or not finite. */
+    PALPATE_DEVICE_WEIGHT = 40,            /**< Links heavier than a motor holds, under protection for long. */
     PALPATE_SETTINGS_RATE = 48,            /**< Rate not between 1 Hz and 100 kHz. */
     PALPATE_SETTINGS_STIFFNESS = 49,       /**< Stiffness not between 0 and the device's greatest. */
     PALPATE_SETTINGS_DAMPING = 50,         /**< Damping not between 0 and the device's greatest. */

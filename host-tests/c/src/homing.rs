@@ -1,6 +1,6 @@
 //! How a loop finds out where its joints are, as numbers.
 
-use crate::pointers::Plain;
+use crate::pointers::{Plain, flag};
 use crate::status::Status;
 use palpate_core::device::{Encoder, Homing, Reference, StopSearch};
 
@@ -56,6 +56,6 @@ impl HomingNumbers {
             _ => return Err(Status::OutOfRange),
         };
         let homing = Homing::try_new(encoders, reference, self.still_ticks, self.still_counts, self.timeout_ticks)?;
-        Ok(if self.when_asked == 0 { homing } else { homing.when_asked() })
+        Ok(if flag(self.when_asked)? { homing.when_asked() } else { homing })
     }
 }

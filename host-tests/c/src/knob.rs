@@ -136,7 +136,9 @@ impl MechanismNumbers for DialNumbers {
 
     fn mechanism(&self) -> Result<Dial, Status> {
         finite(&[self.radius])?;
-        if self.radius > 0.0 { Ok(Dial { radius_m: self.radius, cogging: None }) } else { Err(Status::OutOfRange) }
+        let dial = Dial { radius_m: self.radius, cogging: None };
+        dial.check()?;
+        Ok(dial)
     }
 }
 

@@ -1,6 +1,6 @@
 //! A device and a loop's settings as numbers.
 
-use crate::pointers::{Plain, finite, get, put};
+use crate::pointers::{Plain, finite, flag, get, put};
 use crate::status::{Status, code};
 use crate::texture::texture;
 use palpate_core::device::drive::{Feed, VoltageFeed};
@@ -229,28 +229,28 @@ impl SettingsNumbers {
         };
         let ease = Ease { onset_n: self.ease_onset, change_n_per_s: self.ease_change };
         Ok(Rendering {
-            velocity: if self.between_counts == 0 { VelocityMethod::LowPass } else { VelocityMethod::BetweenCounts },
+            velocity: if flag(self.between_counts)? { VelocityMethod::BetweenCounts } else { VelocityMethod::LowPass },
             ease: if self.ease_change == 0.0 { None } else { Some(ease) },
             friction: if slips_freely { None } else { Some(friction) },
             texture: texture(self.texture_share)?,
             coupling: if self.coupling_mass == 0.0 { None } else { Some(coupling) },
             passivity: if self.passivity_damping == 0.0 { None } else { Some(passivity) },
             max_slew_n_per_s: self.max_slew,
-            compensates_gravity: self.leave_weight == 0,
+            compensates_gravity: !flag(self.leave_weight)?,
         })
     }
 
     /// Limits and reactions.
-    pub fn safety(&self) -> Safety {
+    pub fn safety(&self) -> Result<Safety, Status> {
         let output = if self.safe_damping == 0.0 { SafeOutput::Zero } else { SafeOutput::Damping(self.safe_damping) };
-        Safety {
+        Ok(Safety {
             output,
             max_overruns: self.max_overruns,
             link_timeout_s: self.link_timeout,
             settle_ticks: self.settle_ticks,
-            wait_for_homing: self.wait_for_homing != 0,
+            wait_for_homing: flag(self.wait_for_homing)?,
             ..Safety::DEFAULT
-        }
+        })
     }
 }
 

@@ -102,3 +102,12 @@ pub unsafe fn take_slots<T: Copy>(
 pub fn finite(numbers: &[f32]) -> Result<(), Status> {
     if numbers.iter().all(|number| number.is_finite()) { Ok(()) } else { Err(Status::NotFinite) }
 }
+
+/// A choice of two: 0 or 1. Any other number is another field's.
+pub const fn flag(number: u32) -> Result<bool, Status> {
+    match number {
+        0 => Ok(false),
+        1 => Ok(true),
+        _ => Err(Status::OutOfRange),
+    }
+}

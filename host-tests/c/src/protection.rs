@@ -1,7 +1,7 @@
 //! Protection of motors and hand, as numbers.
 
 use crate::felt::Felt;
-use crate::pointers::Plain;
+use crate::pointers::{Plain, flag};
 use crate::status::Status;
 use palpate_core::device::{Device, Endurance, PolarityCheck, Protection, SupplyRange};
 use palpate_core::servo::{Config, Guard, Guarded, Servo, Surface, Unguarded};
@@ -36,6 +36,11 @@ pub trait Guarding<const JOINTS: usize> {
     /// The guard.
     type Guard: Guard<JOINTS> + Copy + 'static;
 
+    /// The part of the motors' full torques, N·m, that they hold for long.
+    fn holds(&self, full_n_m: [f32; JOINTS]) -> [f32; JOINTS] {
+        full_n_m
+    }
+
     /// The loop with its guard.
     fn servo<K, S: Surface>(
         &self,
@@ -69,6 +74,13 @@ impl<const JOINTS: usize> Guarding<JOINTS> for Unprotected {
 impl<const JOINTS: usize> Guarding<JOINTS> for ProtectionNumbers {
     type Guard = Guarded<JOINTS>;
 
+    fn holds(&self, mut full_n_m: [f32; JOINTS]) -> [f32; JOINTS] {
+        for (torque, motor) in full_n_m.iter_mut().zip(&self.motors) {
+            *torque *= motor.continuous.min(1.0);
+        }
+        full_n_m
+    }
+
     fn servo<K, S: Surface>(
         &self,
         device: &'static Device<K, JOINTS>,
@@ -78,12 +90,12 @@ impl<const JOINTS: usize> Guarding<JOINTS> for ProtectionNumbers {
     where
         K: palpate_core::device::Kinematics<JOINTS>,
     {
-        Ok(Servo::try_protected(device, body, self.protection(), config)?)
+        Ok(Servo::try_protected(device, body, self.protection()?, config)?)
     }
 }
 
 impl ProtectionNumbers {
-    fn protection<const JOINTS: usize>(&self) -> Protection<JOINTS> {
+    fn protection<const JOINTS: usize>(&self) -> Result<Protection<JOINTS>, Status> {
         let mut protection = Protection {
             motors: [Endurance { continuous: 0.0, time_constant_s: 0.0 }; JOINTS],
             max_joint_rates_rad_per_s: [0.0; JOINTS],
@@ -101,12 +113,12 @@ impl ProtectionNumbers {
             *rate = *max_rate;
             *inertia = *given_inertia;
         }
-        if self.watch_signs != 0 {
+        if flag(self.watch_signs)? {
             protection.polarity = Some(signs);
         }
-        if self.watch_supply != 0 {
+        if flag(self.watch_supply)? {
             protection.supply = Some(SupplyRange { min_mv: self.least_supply, max_mv: self.most_supply });
         }
-        protection
+        Ok(protection)
     }
 }

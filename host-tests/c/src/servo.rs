@@ -89,9 +89,10 @@ where
         addr_of_mut!((*whole).device).write(device);
         &*addr_of!((*whole).device)
     };
-    let (rendering, safety) = (settings.rendering()?, settings.safety());
+    let (rendering, safety) = (settings.rendering()?, settings.safety()?);
     let config = Config { settings: settings.settings(), rendering, safety, ..Config::DEFAULT };
     let servo = guarding.servo(device, surface, config)?;
+    device.kinematics.check(guarding.holds(device.full_torques_n_m()))?;
     // SAFETY: within the value, all of which is there then.
     unsafe {
         let running = addr_of_mut!((*whole).running);

@@ -34,6 +34,10 @@ pub enum Status {
     DeviceFriction = 34,
     DeviceRange = 35,
     DeviceLimit = 36,
+    DeviceMechanism = 37,
+    DeviceCentre = 38,
+    DeviceMass = 39,
+    DeviceWeight = 40,
     SettingsRate = 48,
     SettingsStiffness = 49,
     SettingsDamping = 50,
@@ -109,6 +113,10 @@ impl Status {
                 c"a joint's minimum angle must be below its maximum, both finite; or both infinite of an only joint, with 4 to 16777216 counts a turn"
             }
             Self::DeviceLimit => c"a device's margin, rate, force, stiffness and damping must be positive and finite",
+            Self::DeviceMechanism => c"the mechanism needs lengths of 0.001 to 2 m, offsets within 2 m, a side of 1 or -1, and directions of length 1",
+            Self::DeviceCentre => c"the workspace's centre is out of the mechanism's reach: it is in metres",
+            Self::DeviceMass => c"a mass of the mechanism must be finite and not negative",
+            Self::DeviceWeight => c"a motor cannot hold the links' weight: check masses in kg, torque_at_full, and the protection's continuous share",
             Self::SettingsRate => c"the servo rate must be between 1 Hz and 100 kHz",
             Self::SettingsStiffness => c"the stiffness must be between 0 and the device's maximum",
             Self::SettingsDamping => c"the damping must be between 0 and the device's maximum",
@@ -160,7 +168,7 @@ impl Status {
         }
     }
 
-    const ALL: [Self; 68] = [
+    const ALL: [Self; 72] = [
         Self::Ok,
         Self::Null,
         Self::Misaligned,
@@ -185,6 +193,10 @@ impl Status {
         Self::DeviceFriction,
         Self::DeviceRange,
         Self::DeviceLimit,
+        Self::DeviceMechanism,
+        Self::DeviceCentre,
+        Self::DeviceMass,
+        Self::DeviceWeight,
         Self::SettingsRate,
         Self::SettingsStiffness,
         Self::SettingsDamping,
@@ -271,6 +283,10 @@ impl From<DeviceError> for Status {
             DeviceError::Friction(_) => Self::DeviceFriction,
             DeviceError::Range(_) | DeviceError::Endless(_) => Self::DeviceRange,
             DeviceError::Limit => Self::DeviceLimit,
+            DeviceError::Mechanism(_) => Self::DeviceMechanism,
+            DeviceError::Centre => Self::DeviceCentre,
+            DeviceError::Mass(_) => Self::DeviceMass,
+            DeviceError::Weight { .. } => Self::DeviceWeight,
         }
     }
 }

@@ -311,7 +311,8 @@ static palpate_status bad_protection(void)
     palpate_protection none = protection;
     palpate_settings no_settings = settings;
     palpate_status status;
-    switch (any(9)) {
+    switch (any(10)) {
+    case 9: (any(2) ? &none.watch_signs : &none.watch_supply)[0] = 2; break;
     case 0: none.motors[any(3)].continuous = any(2) ? bad_float() : -1; break;
     case 1: none.motors[any(3)].time_constant = any(2) ? bad_float() : 1e-9f; break;
     case 2: none.max_joint_rates[any(3)] = any(2) ? NAN : 0; break;
@@ -332,6 +333,69 @@ static palpate_status bad_protection(void)
     return status;
 }
 
+/* A mechanism that no device has, each by its own status; and a weight just above what its motor holds. */
+static palpate_status bad_mechanism(void)
+{
+    palpate_servo *one = malloc(sizeof *one);
+    palpate_serial_arm no_arm = arm;
+    palpate_delta delta = {0.06f, 0.1025f, 0.0225f, 0.02557f, 0.00191f, {{0, 1}, {1, 0}, {-0.6f, -0.8f}},
+                           {0, 0, 0.12f}, {0, 1, 0}, 0.17f, 0.006f};
+    palpate_five_bar bar = {0.038f, {0.07f, 0.07f}, {0.09f, 0.09f}, 1, 0.09f, {0.019f, 0.1f}};
+    palpate_linkage_arm linkage = {{-0.034f, {0.165f, 0.025f}, {0.034f, 0.19f}, -1, -0.1308f, {0, 9}}, 0.017f,
+                                   {0.2f, 0, 0.03f}, {{0.1f, 0.03f, 0}, {0.1f, 0, 0}, {0.1f, 0.06f, 0}, {0.1f, 0.09f, 0}}};
+    palpate_paddle paddle = {0.066f, 0};
+    palpate_settings no_settings = settings;
+    palpate_protection half = protection;
+    palpate_status expected = PALPATE_DEVICE_MECHANISM, status;
+    const float lengths[4] = {-0.2f, 0, 200, 0.0005f};
+    /* 1 N.m holds 0.41606 kg at 0.245 m; with protection half of it. */
+    no_arm.end_masses[1] = any(2) ? 0.416f : -0.416f;
+    good("a weight that is held", start_arm(one, sizeof *one, &no_arm, &device, &body, &settings, 0));
+    half.motors[2].continuous = 0.99f;
+    if (start_protected(one, sizeof *one, &no_arm, &device, &body, &settings, &half, 0) != PALPATE_DEVICE_WEIGHT)
+        stop("more than a motor holds for long", PALPATE_OK);
+    no_arm = arm;
+    switch (any(16)) {
+    case 0: no_arm.first_link = lengths[any(4)]; goto serial;
+    case 1: no_arm.second_link = lengths[any(4)]; goto serial;
+    case 2: no_arm.base_height = 2.5f; goto serial;
+    case 3: no_arm.workspace_centre[any(2)] = 9, expected = PALPATE_DEVICE_CENTRE; goto serial;
+    case 4: no_arm.end_masses[0] = -5, expected = PALPATE_DEVICE_WEIGHT; goto serial;
+    case 5: no_arm.end_masses[1] = any(2) ? 50 : 0.4162f, expected = PALPATE_DEVICE_WEIGHT; goto serial;
+    case 6: delta.shin = lengths[any(4)]; goto delta;
+    case 7: delta.directions[any(3)][any(2)] = 2; goto delta;
+    case 8: delta.up[1] = 0; goto delta;
+    case 9: delta.carried_mass = -1, expected = PALPATE_DEVICE_MASS; goto delta;
+    case 10: delta.carried_mass = 17, expected = PALPATE_DEVICE_WEIGHT; goto delta;
+    case 11: any(2) ? (bar.side = 0) : (bar.rods[any(2)] = lengths[any(4)]); goto five_bar;
+    case 12: bar.workspace_centre[1] = 1, expected = PALPATE_DEVICE_CENTRE; goto five_bar;
+    case 13: linkage.masses[2 + any(2)][0] = any(2) ? -1 : 200; goto linkage;
+    case 14: paddle.mass_moment = 0.11f, expected = PALPATE_DEVICE_WEIGHT; goto paddle;
+    default:
+        expected = PALPATE_OUT_OF_RANGE;
+        (any(2) ? any(2) ? &no_settings.between_counts : &no_settings.leave_weight : &no_settings.wait_for_homing)[0] = 7;
+    }
+serial:
+    status = start_arm(one, sizeof *one, &no_arm, &device, &body, &no_settings, 0);
+    goto end;
+delta:
+    status = palpate_servo_start_delta(one, sizeof *one, &delta, &device, &body, &settings, 0);
+    goto end;
+five_bar:
+    status = palpate_servo_start_five_bar(one, sizeof *one, &bar, &device, &body, &settings, 0);
+    goto end;
+linkage:
+    status = palpate_servo_start_linkage_arm(one, sizeof *one, &linkage, &device, &body, &settings, 0);
+    expected = status == PALPATE_DEVICE_WEIGHT ? PALPATE_DEVICE_WEIGHT : PALPATE_DEVICE_MASS;
+    goto end;
+paddle:
+    status = palpate_servo_start_paddle(one, sizeof *one, &paddle, &device, &body, &settings, 0);
+end:
+    if (status != expected) stop("another refusal of a mechanism", status);
+    free(one);
+    return status;
+}
+
 static palpate_status bad_homing(void)
 {
     const palpate_reference stop_at = {0.5f, -0.4f, 0.2f, 0.1f, 3};
@@ -340,7 +404,8 @@ static palpate_status bad_homing(void)
     palpate_output output;
     good("a loop", start_arm(one, sizeof *one, &arm, &device, &body, &settings, 0));
     palpate_status status;
-    switch (any(9)) {
+    switch (any(10)) {
+    case 9: homing.when_asked = 7; break;
     case 0: homing.by = 4 + any(1000); break;
     case 1: ((float *)&homing.joints[any(3)])[any(sizeof stop_at / sizeof(float))] = bad_float(); break;
     case 2: homing.by = 1 + any(2), homing.joints[any(3)].angle = bad_float(); break;
@@ -567,7 +632,7 @@ int main(int count, char **arguments)
     use(&body);
 
     palpate_status (*const ways[])(void) = {spoiled_file, bad_load, bad_info, bad_probe, bad_start,
-                                            bad_pair, bad_servo, bad_protection, bad_homing, bad_soft, bad_dial,
+                                            bad_pair, bad_servo, bad_protection, bad_mechanism, bad_homing, bad_soft, bad_dial,
                                             bad_tick, bad_receiver};
     unsigned long of[128] = {0}, refused = 0;
     while (refused < calls) {

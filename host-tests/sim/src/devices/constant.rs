@@ -98,7 +98,7 @@ fn constants<K: Debug>(text: &mut String, mechanism: &str, device: &Device<K, 3>
          kinematics: {},\n    encoders: {},\n    motors: {},\n    feeds: {},\n    dry_friction_n_m: {dry_friction_n_m:?},\n    \
          joint_range_rad: {joint_range_rad:?},\n    min_margin_m_per_rad: {min_margin_m_per_rad:?},\n    max_joint_rate_rad_per_s: {max_joint_rate_rad_per_s:?},\n    \
          max_force_n: {max_force_n:?},\n    max_stiffness_n_per_m: {max_stiffness_n_per_m:?},\n    max_damping_n_s_per_m: {max_damping_n_s_per_m:?},\n}};\n\
-         const _: () = assert!(DEVICE.check().is_ok(), \"no device has these numbers\");\n\n\
+         const _: () = assert!(\n    DEVICE.check().is_ok() && DEVICE.kinematics.check(DEVICE.full_torques_n_m()).is_ok(),\n    \"no device has these numbers\"\n);\n\n\
          /// Its protection.\n#[allow(dead_code)]\npub const PROTECTION: palpate::device::Protection<3> = {};\n",
         literal(kinematics),
         literal(encoders),

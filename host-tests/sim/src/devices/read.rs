@@ -2,7 +2,7 @@
 
 #[cfg(feature = "std")]
 use super::plant;
-use super::schema::{DeviceFile, JointEntry, LinkageEntry, MechanismEntry};
+use super::schema::{DeviceFile, JointEntry, MechanismEntry};
 use crate::devices::preset::Preset;
 #[cfg(feature = "std")]
 use crate::plant::PlantSettings;
@@ -10,13 +10,12 @@ use alloc::borrow::ToOwned as _;
 use alloc::boxed::Box;
 use alloc::format;
 use alloc::string::{String, ToString as _};
-use alloc::vec;
 use alloc::vec::Vec;
 use palpate::commission::Wiring;
 use palpate::device::drive::{Feed, VoltageFeed};
 use palpate::device::{
-    Delta, Device, DeviceError, Encoder, Endurance, FiveBar, LinkMass, LinkageArm, Motor, PolarityCheck, Protection,
-    SerialArm,
+    Delta, Device, DeviceError, Encoder, Endurance, FiveBar, Kinematics, LinkMass, LinkageArm, Motor, PolarityCheck,
+    Protection, SerialArm,
 };
 use palpate::math::{Vec2, vec3};
 #[cfg(feature = "std")]
@@ -114,6 +113,13 @@ impl OwnDevice {
                 DeviceError::Motor(joint) => format!("joint {joint}: motor"),
                 DeviceError::Friction(joint) => format!("joint {joint}: friction"),
                 DeviceError::Range(joint) | DeviceError::Endless(joint) => format!("joint {joint}: range"),
+                DeviceError::Centre => file.mechanism.centre().to_owned(),
+                // Their entry comes first in their own words.
+                DeviceError::Mechanism(_) | DeviceError::Mass(_) | DeviceError::Weight { .. } => {
+                    let text = error.to_string();
+                    let (entry, reason) = text.split_once(": ").unwrap_or(("mechanism", &text));
+                    return Err(refuse(entry, reason));
+                }
                 DeviceError::Limit => {
                     let limits = &file.limits;
                     let all = [
@@ -223,25 +229,6 @@ fn check(file: &DeviceFile, refuse: impl Fn(&str, &str) -> DeviceFileError) -> R
     if !positive(file.limits.max_probe_speed) {
         return Err(refuse("limits.max_probe_speed", "must be positive and finite"));
     }
-    let lengths: Vec<(&str, f64)> = match &file.mechanism {
-        MechanismEntry::SerialArm { first_link, second_link, .. } => {
-            vec![("first_link", *first_link), ("second_link", *second_link)]
-        }
-        MechanismEntry::LinkageArm(LinkageEntry { cranks, rods, .. }) => {
-            vec![("cranks", cranks[0]), ("cranks", cranks[1]), ("rods", rods[0]), ("rods", rods[1])]
-        }
-        MechanismEntry::Delta { thigh, shin, .. } => vec![("thigh", *thigh), ("shin", *shin)],
-    };
-    for (name, length) in lengths {
-        if !(positive(length) && length < 10.0) {
-            return Err(refuse(&format!("mechanism.{name}"), &format!("{length} must be a length in metres")));
-        }
-    }
-    if let MechanismEntry::LinkageArm(arm) = file.mechanism
-        && arm.side.abs() != 1.0
-    {
-        return Err(refuse("mechanism.side", "must be 1 or -1"));
-    }
     Ok(())
 }
 
@@ -264,7 +251,7 @@ fn preset(file: &DeviceFile) -> (Preset, Result<(), DeviceError>) {
                     end_masses_kg: end_masses.map(|mass| mass as f32),
                 },
             );
-            (Preset::SerialArm(Box::leak(Box::new(device))), device.check())
+            (Preset::SerialArm(Box::leak(Box::new(device))), whole(file, &device))
         }
         MechanismEntry::LinkageArm(arm) => {
             let [x, y, z] = three(arm.workspace_centre);
@@ -288,7 +275,7 @@ fn preset(file: &DeviceFile) -> (Preset, Result<(), DeviceError>) {
                     }),
                 },
             );
-            (Preset::LinkageArm(Box::leak(Box::new(device))), device.check())
+            (Preset::LinkageArm(Box::leak(Box::new(device))), whole(file, &device))
         }
         MechanismEntry::Delta { thigh, shin, stub, reach, side, legs, workspace_depth, carried_mass, thigh_moment } => {
             let device = device(
@@ -306,9 +293,17 @@ fn preset(file: &DeviceFile) -> (Preset, Result<(), DeviceError>) {
                     thigh_moment_kg_m: *thigh_moment as f32,
                 },
             );
-            (Preset::Delta(Box::leak(Box::new(device))), device.check())
+            (Preset::Delta(Box::leak(Box::new(device))), whole(file, &device))
         }
     }
+}
+
+/// The library's checks. A motor holds the links' weight for long, by its continuous current.
+fn whole<K: Kinematics<3>>(file: &DeviceFile, device: &Device<K, 3>) -> Result<(), DeviceError> {
+    device.check()?;
+    let shares = each(file, |joint| (joint.motor.continuous_current / joint.motor.current_at_full).min(1.0) as f32);
+    let full = device.full_torques_n_m();
+    device.kinematics.check(core::array::from_fn(|joint| full[joint] * shares[joint]))
 }
 
 /// The joint's entries, by index; there are three.

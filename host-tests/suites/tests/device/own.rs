@@ -38,7 +38,7 @@ fn the_file_of_a_device_that_ships_reads_back_as_its_constant() {
         }
         let rust = source(&own, "my.toml");
         syn::parse_file(&rust).expect("it is Rust");
-        assert!(rust.contains("DEVICE.check()"));
+        assert!(rust.contains("DEVICE.check()") && rust.contains("DEVICE.kinematics.check("));
     }
     assert_eq!(seen, 4);
 }
@@ -69,6 +69,9 @@ fn a_bad_file_is_refused_by_its_entry() {
         ("first_link = 0.205", "first_link = -0.205", "mechanism.first_link"),
         ("first_link = 0.205", "first_link = 205.0", "mechanism.first_link"),
         ("workspace_centre = [0.22, 0.0, 0.08]", "workspace_centre = [0.9, 0.0, 0.08]", "mechanism.workspace_centre"),
+        // 9.81 m/s² · 50 kg · 0.245 m, and 0.0259 N·m/A · 3 A · 12.
+        ("0.04085714]", "50.0]", "joint 2: gravity compensation takes 120.17 N·m, and its motor holds 0.93 N·m"),
+        ("[0.15229268,", "[-5.0,", "joint 1: gravity compensation takes 10.06 N·m"),
         ("range = [-1.6, 1.6]", "range = [0.5, 1.6]", "mechanism.workspace_centre: needs joint a at 0.00 rad"),
         ("range = [-1.6, 1.6]", "range = [1.6, -1.6]", "joint 0: range"),
         ("channel = 1", "channel = 0", "joint 1: channel"),
