@@ -17,6 +17,13 @@
  * much memory as the function says; a file, its buffer and a body stay as they are for as long as anything stands on
  * them; and no two calls that change a handle run at once.
  *
+ * **What comes back**: #PALPATE_OK, or one of the values that a function names. Each may return #PALPATE_NULL and
+ * #PALPATE_MISALIGNED for a pointer, #PALPATE_TOO_SMALL for memory, and #PALPATE_NOT_READY for a handle.
+ *
+ * **Interrupts**: a loop whose tick runs in an interrupt has every other call on it with that interrupt masked, or from
+ * within it: palpate_servo_note(), palpate_servo_supply(), palpate_servo_index(), palpate_servo_set_feel(),
+ * palpate_servo_state() and the like.
+ *
  * @code{.c}
  * static palpate_body body;
  * static palpate_word buffer[PALPATE_BODY_BUFFER_WORDS(6, 12)];
@@ -163,12 +170,39 @@ enum {
     PALPATE_KNOB_FAR = 101           /**< The part would take the dial further than an eighth of a turn. */
 };
 
-/** A status in a sentence that stays for ever; "unknown" of a code that is none. */
+/** Returns a status in a sentence, a static string; "unknown" of a code that is none. */
 const char *palpate_status_text(int32_t status);
-/** A fault (palpate_output::fault) in words that stay for ever; "none" of 0, "unknown" of a code that is none. */
+/** palpate_output::fault and palpate_state::fault; 0 is none. A fault is latched: only a new start leaves it. */
+enum {
+    PALPATE_FAULT_FRAME_LOST = 1,            /**< Sensor frame lost or late. */
+    PALPATE_FAULT_FRAME_DAMAGED = 2,         /**< Sensor frame damaged. */
+    PALPATE_FAULT_JOINT_OUT_OF_RANGE = 3,    /**< Joint angle out of range. */
+    PALPATE_FAULT_JOINT_JUMPED = 4,          /**< Joint angle jumped. */
+    PALPATE_FAULT_NOT_FINITE = 5,            /**< Force not finite. */
+    PALPATE_FAULT_JOINT_STUCK = 6,           /**< Joint sensor stuck. */
+    PALPATE_FAULT_OVERRUN = 7,               /**< Tick overrun. */
+    PALPATE_FAULT_LINK_LOST = 8,             /**< Host link lost. */
+    PALPATE_FAULT_TABLE_CORRUPT = 9,         /**< Table corrupted. */
+    PALPATE_FAULT_WATCHDOG_RESET = 10,       /**< Reset by the watchdog. */
+    PALPATE_FAULT_BROWN_OUT = 11,            /**< Reset by a brown-out. */
+    PALPATE_FAULT_DRIVE = 12,                /**< Motor driver fault. */
+    PALPATE_FAULT_HOMING = 13,               /**< Homing refused. */
+    PALPATE_FAULT_STOPPED = 14,              /**< Stopped by hand. */
+    PALPATE_FAULT_UNREACHABLE = 15,          /**< Pose out of the mechanism's reach. */
+    PALPATE_FAULT_CONTACT_LOST = 16,         /**< Contact lost repeatedly. */
+    PALPATE_FAULT_OVERSPEED = 17,            /**< Moving too fast under force. */
+    PALPATE_FAULT_SUPPLY = 18,               /**< Motor supply out of range or not measured. */
+    PALPATE_FAULT_WRONG_POLARITY = 19,       /**< Encoder and motor polarity disagree. */
+    PALPATE_FAULT_CALIBRATION = 20,          /**< The calibration stored in flash is refused. */
+    PALPATE_FAULT_MAGNET = 21,               /**< Sensor magnet too strong or too weak. */
+    PALPATE_FAULT_FROZEN = 22,               /**< Sensor reading frozen. */
+    PALPATE_FAULT_OTHER_RATE = 23            /**< Surface made for another rate. */
+};
+
+/** Returns a fault (palpate_output::fault) in words, a static string; "none" of 0, "unknown" of any other code. */
 const char *palpate_fault_text(uint32_t fault);
 
-/** A refusal of homing (palpate_state::refusal) in words, a static string; "none" of 0, "unknown" of any other code. */
+/** Returns a refusal of homing (palpate_state::refusal) in words, a static string; "none" of 0, "unknown" of any other code. */
 const char *palpate_refusal_text(uint32_t refusal);
 
 /** @name Bodies
@@ -199,6 +233,7 @@ typedef struct palpate_located {
  * @param file  the bytes that `palpate bake MODEL --out part.palp` wrote, at a multiple of 4
  * @param bytes how many
  * @param info  where what it says goes
+ * @return #PALPATE_OK, or #PALPATE_FILE_MAGIC to #PALPATE_FILE_SECTION.
  */
 palpate_status palpate_file_head(const uint8_t *file, size_t bytes, palpate_file_info *info);
 
@@ -212,6 +247,7 @@ palpate_status palpate_file_head(const uint8_t *file, size_t bytes, palpate_file
  * @param file_bytes  its length
  * @param buffer memory for faces and edges, at the alignment of ::palpate_word
  * @param buffer_bytes  `sizeof` it; palpate_file_info::buffer_bytes at least
+ * @return #PALPATE_OK, or #PALPATE_FILE_MAGIC to #PALPATE_FILE_TABLES; then there is no body.
  */
 palpate_status palpate_body_load(palpate_body *body, size_t body_bytes, const uint8_t *file, size_t file_bytes,
                                  void *buffer, size_t buffer_bytes);
@@ -222,6 +258,7 @@ palpate_status palpate_body_load(palpate_body *body, size_t body_bytes, const ui
  * @param body    the body
  * @param probe   three coordinates, m
  * @param located where the answer goes
+ * @return #PALPATE_OK, or #PALPATE_NOT_FINITE of the probe.
  */
 palpate_status palpate_closest(const palpate_body *body, const float *probe, palpate_located *located);
 /** @} */
@@ -263,6 +300,7 @@ typedef struct palpate_mode {
  * @param rate         rate of the loop, Hz; in a loop of another rate it is a fault
  * @param buffer       memory for the modes, at the alignment of ::palpate_word
  * @param buffer_bytes `sizeof` it; #PALPATE_MODE_WORDS words a mode
+ * @return #PALPATE_OK, #PALPATE_NOT_FINITE, or #PALPATE_SOFT_MODES to #PALPATE_SOFT_RATE.
  */
 palpate_status palpate_soft_body_load(palpate_soft_body *soft, size_t soft_bytes, const palpate_body *body,
                                       const palpate_mode *modes, size_t count, float rate, void *buffer,
@@ -294,6 +332,7 @@ typedef struct palpate_touch {
  * @param tracker       where it goes
  * @param tracker_bytes `sizeof` it
  * @param body          the body, which stays
+ * @return #PALPATE_OK.
  */
 palpate_status palpate_start(palpate_tracker *tracker, size_t tracker_bytes, const palpate_body *body);
 
@@ -306,6 +345,7 @@ palpate_status palpate_start(palpate_tracker *tracker, size_t tracker_bytes, con
  * @param face          the face
  * @param u             first parameter, 0 to 1
  * @param v             second parameter, 0 to 1
+ * @return #PALPATE_OK, #PALPATE_OUT_OF_RANGE of the face, or #PALPATE_NOT_FINITE.
  */
 palpate_status palpate_start_on(palpate_tracker *tracker, size_t tracker_bytes, const palpate_body *body,
                                 uint32_t face, float u, float v);
@@ -315,6 +355,7 @@ palpate_status palpate_start_on(palpate_tracker *tracker, size_t tracker_bytes, 
  *
  * @param tracker the tracker
  * @param probe   three coordinates, m
+ * @return #PALPATE_OK, or #PALPATE_NOT_FINITE of the probe.
  */
 palpate_status palpate_track(palpate_tracker *tracker, const float *probe);
 
@@ -323,6 +364,7 @@ palpate_status palpate_track(palpate_tracker *tracker, const float *probe);
  *
  * @param tracker the tracker
  * @param touch   where the answer goes
+ * @return #PALPATE_OK; #PALPATE_NOT_READY before the first palpate_track().
  */
 palpate_status palpate_update_contact(palpate_tracker *tracker, palpate_touch *touch);
 
@@ -332,6 +374,7 @@ palpate_status palpate_update_contact(palpate_tracker *tracker, palpate_touch *t
  * @param tracker the tracker
  * @param probe   three coordinates, m
  * @param touch   where the answer goes
+ * @return #PALPATE_OK, or #PALPATE_NOT_FINITE of the probe.
  */
 palpate_status palpate_step(palpate_tracker *tracker, const float *probe, palpate_touch *touch);
 /** @} */
@@ -366,6 +409,7 @@ typedef struct palpate_apart {
  * @param first_face  one of its faces
  * @param second      the other body, or the same
  * @param second_face one of its faces
+ * @return #PALPATE_OK, or #PALPATE_OUT_OF_RANGE of a face.
  */
 palpate_status palpate_pair_start(palpate_pair *pair, size_t pair_bytes, const palpate_body *first,
                                   uint32_t first_face, const palpate_body *second, uint32_t second_face);
@@ -377,6 +421,7 @@ palpate_status palpate_pair_start(palpate_pair *pair, size_t pair_bytes, const p
  * @param pair  the pair
  * @param pose  where the second body is
  * @param apart where the answer goes
+ * @return #PALPATE_OK, or #PALPATE_NOT_FINITE of the pose.
  */
 palpate_status palpate_pair_step(palpate_pair *pair, const palpate_pose *pose, palpate_apart *apart);
 /** @} */
@@ -396,76 +441,90 @@ typedef struct palpate_voltage_feed {
 
 /** A joint: encoder, motor, range. */
 typedef struct palpate_joint {
-    float radians_per_count;   /**< Joint angle a count, rad; negative where it counts the other way. */
+    float radians_per_count;   /**< Joint angle a count, rad, not 0; negative where it counts the other way. */
     float angle_at_line;       /**< Joint angle where the count steps from -1 to 0, rad; as Encoder::new in Rust. */
-    float torque_at_full;      /**< Joint torque at full duty, N·m; negative where the motor turns the other way. */
-    float dry_friction;        /**< N·m, generously; 0 where it is not known. */
-    float least_angle;         /**< rad; what lies below is a sensor fault. */
-    float greatest_angle;      /**< rad. */
+    float torque_at_full;      /**< Joint torque at full duty, N·m, not 0; negative where the motor turns the other way. */
+    float dry_friction;        /**< N·m, generously, not negative; 0 where it is not known. */
+    float least_angle;         /**< Minimum, rad; below it is a sensor fault. */
+    float greatest_angle;      /**< Maximum, rad, above it; above this a sensor fault. */
     palpate_voltage_feed feed; /**< How the motor is fed. */
 } palpate_joint;
 
 /** A device, all but its mechanism. Joints that it does not have are not looked at. */
 typedef struct palpate_device {
     palpate_joint joints[3]; /**< Its joints. */
-    float min_margin;        /**< Least distance from a singularity, m/rad. */
-    float max_joint_rate;    /**< The greatest believable joint speed, rad/s. */
-    float max_force;         /**< N. */
-    float max_stiffness;     /**< N/m. */
-    float max_damping;       /**< N·s/m. */
+    float min_margin;        /**< Minimum distance from a singularity, m/rad, positive. */
+    float max_joint_rate;    /**< Maximum plausible joint speed, rad/s, positive; faster is a sensor fault. */
+    float max_force;         /**< N, positive. */
+    float max_stiffness;     /**< N/m, positive. */
+    float max_damping;       /**< N·s/m, positive. */
 } palpate_device;
 
-/** A turntable with a parallelogram of two links: WoodenHaptics, Phantom. Three joints. */
+/**
+ * A turntable with a parallelogram of two links: WoodenHaptics, Phantom. Three joints.
+ *
+ * In every mechanism lengths are 0.001 to 2 m, offsets -2 to 2 m, and the workspace's centre is not farther from where
+ * the links start than they reach: else #PALPATE_DEVICE_MECHANISM, #PALPATE_DEVICE_CENTRE. The device's frame, in which
+ * palpate_settings::body_origin is and palpate_state::force acts, has its origin in the workspace's centre; here x
+ * points away from the turntable at joint angle 0, z up.
+ *
+ * Each motor must hold the links' weight: 9.81 * |end_masses[i]| * link <= |torque_at_full|, with protection times
+ * palpate_endurance::continuous, at most 1; else #PALPATE_DEVICE_WEIGHT. The other mechanisms in the same way.
+ */
 typedef struct palpate_serial_arm {
-    float base_height;         /**< Height of the first link's axis, m. */
-    float first_link;          /**< m. */
-    float second_link;         /**< m. */
+    float base_height;         /**< Height of the first link's axis, an offset, m. */
+    float first_link;          /**< Length, m. */
+    float second_link;         /**< Length, m. */
     float workspace_centre[3]; /**< From the foot of the turntable, m. */
-    float end_masses[2];       /**< What each link lifts, as a mass at its end, kg; 0 if not known. */
+    float end_masses[2];       /**< What each link lifts, as a mass at its end, kg; 0 if not known, negative if overbalanced. */
 } palpate_serial_arm;
 
-/** Three legs with parallelograms: Falcon. Three joints. */
+/** Three legs with parallelograms: Falcon. Three joints. Each holds `carried_mass * thigh + |thigh_moment|`. Frame: z out of the base. */
 typedef struct palpate_delta {
-    float thigh;               /**< m. */
-    float shin;                /**< m. */
-    float stub;                /**< Both stubs together, m. */
-    float reach;               /**< From the axis out to a hip, less the same from the probe to a shin's end, m. */
+    float thigh;               /**< Length, m. */
+    float shin;                /**< Length, m. */
+    float stub;                /**< Both stubs together, m; 0 to 2. */
+    float reach;               /**< Offset: from the axis out to a hip, less the same from the probe to a shin's end, m. */
     float side;                /**< The same difference to the left of a leg, m. */
     float directions[3][2];    /**< Cosine and sine of each leg's direction. */
     float workspace_centre[3]; /**< From the middle of the base, m. */
     float up[3];               /**< Which way is up, a unit vector. */
-    float carried_mass;        /**< Mass that hangs on the probe, kg; 0 if not known. */
-    float thigh_moment;        /**< kg·m. */
+    float carried_mass;        /**< Mass that hangs on the probe, kg; 0 if not known, never negative. */
+    float thigh_moment;        /**< Mass of a thigh times its lever, kg·m; 0 if not known. */
 } palpate_delta;
 
-/** Two cranks and two rods in a plane: Haply. Two joints. */
+/** Two cranks and two rods in a plane: Haply. Two joints. Frame: x along the pivots, z off the plane. */
 typedef struct palpate_five_bar {
-    float second_pivot;        /**< The second crank's pivot on the x axis, m. */
-    float cranks[2];           /**< m. */
-    float rods[2];             /**< m. */
+    float second_pivot;        /**< The second crank's pivot on the x axis, an offset, m. */
+    float cranks[2];           /**< Lengths, m. */
+    float rods[2];             /**< Lengths, m. */
     float side;                /**< 1 or -1: which way the rods bend. */
-    float tool;                /**< The probe on the first rod, m from its elbow. */
+    float tool;                /**< The probe on the first rod, m from its elbow, negative beyond it: a length either way. */
     float workspace_centre[2]; /**< From the first pivot, m. */
 } palpate_five_bar;
 
-/** A turntable that carries an upright five-bar: Polhem. Three joints. */
+/**
+ * A turntable that carries an upright five-bar: Polhem. Three joints. Frame: x away from the turntable, z up. Weight
+ * with m, c for the mass and along + across of masses: the first crank's motor holds `m0 c0 + m2 cranks[0] + m3 c3
+ * cranks[0] / rods[1]`, the second's `m1 c1 + m3 cranks[1] + m2 c2 cranks[1] / rods[0]`.
+ */
 typedef struct palpate_linkage_arm {
     palpate_five_bar linkage;  /**< In the upright plane; its own workspace centre is not used. */
-    float pivot_reach;         /**< From the turntable's axis to the first crank's pivot, m. */
-    float workspace_centre[3]; /**< m. */
-    float masses[4][3];        /**< First crank, second crank, first rod, second rod: mass (kg), along, across (m). */
+    float pivot_reach;         /**< From the turntable's axis to the first crank's pivot, an offset, m. */
+    float workspace_centre[3]; /**< From the foot of that pivot on the axis, m. */
+    float masses[4][3];        /**< First crank, second crank, first rod, second rod: mass (kg, not negative), along, across (m). */
 } palpate_linkage_arm;
 
 /** A lever with one motor: Hapkit. One joint. */
 typedef struct palpate_paddle {
-    float handle;      /**< From the axis to the hand, m. */
-    float mass_moment; /**< kg·m; 0 if balanced or not known. */
+    float handle;      /**< Length from the axis to the hand, m; the probe is at `handle * angle` on x. */
+    float mass_moment; /**< Mass times the height of its centre over the axis, kg·m; 0 if balanced or not known. */
 } palpate_paddle;
 
 /** A dial with one motor, whose driver commutates by itself: a knob. One joint, the only one that may turn without end. */
 typedef struct palpate_dial {
-    float radius;       /**< Of the rim, m; the device's limits of force are at the rim. */
-    float release_rate; /**< How fast the torque of an old feel is let go of, N·m/s. */
+    float radius;       /**< Of the rim, a length, m; the device's limits of force are at the rim. */
+    float release_rate; /**< How fast the torque of an old feel is let go of, N·m/s; positive. */
 } palpate_dial;
 
 /** A torque on a dial that repeats: `-torque * sin(2 pi (angle - centre) / pitch)`. */
@@ -557,34 +616,35 @@ typedef struct palpate_turned {
 /** A loop's settings. Begin with palpate_settings_recommended(). */
 typedef struct palpate_settings {
     float rate;               /**< Servo rate, Hz, 1 to 100,000. */
-    float stiffness;          /**< N/m. */
-    float damping;            /**< N·s/m. */
-    float max_force;          /**< N; the device's own limit applies as well. */
-    float velocity_corner;    /**< Hz. */
-    float soft_start;         /**< Seconds over which the force is faded in. */
-    float body_origin[3];     /**< Where the origin of the body's tables lies in the device's frame, m. */
-    float friction_stiffness; /**< N/m. */
-    float friction_damping;   /**< N·s/m. */
-    float friction_static;    /**< With the next one 0: no friction. */
-    float friction_dynamic;   /**< Not above the static one. */
+    float stiffness;          /**< N/m, 0 to palpate_device::max_stiffness. */
+    float damping;            /**< N·s/m, 0 to palpate_device::max_damping. */
+    float max_force;          /**< N, not negative; the device's own limit applies as well. */
+    float velocity_corner;    /**< Of the low-pass of velocities, Hz, positive. */
+    float soft_start;         /**< Seconds over which the force is faded in, not negative. */
+    float body_origin[3];     /**< Where the origin of the body's tables lies in the device's frame, m. That frame's own
+                                   origin is the mechanism's workspace_centre. */
+    float friction_stiffness; /**< Along the surface while it sticks, N/m, not negative. */
+    float friction_damping;   /**< The same, N·s/m, not negative. */
+    float friction_static;    /**< Coefficient of static friction, not negative; with the next one 0: no friction. */
+    float friction_dynamic;   /**< Coefficient of dynamic friction, 0 to the static one. */
     float texture_share;      /**< The texture's force at most, as a share of the normal force, 0 to 1; 0: none. */
-    float coupling_stiffness; /**< Between probe and virtual tool, N/m. */
-    float coupling_damping;   /**< N·s/m. */
+    float coupling_stiffness; /**< Between probe and virtual tool, N/m, positive; with the wall below 2 * mass * rate². */
+    float coupling_damping;   /**< N·s/m, not negative. */
     float coupling_mass;      /**< Of the virtual tool, kg; 0: the probe itself touches. */
-    float passivity_damping;  /**< The most that passivity control adds, N·s/m; 0: none. */
-    float passivity_resolution; /**< How far the probe seems to move when every encoder counts one, m. */
-    float device_damping;     /**< What the device has at least, for passivity control, N·s/m; 0 to be careful. */
-    float device_friction;    /**< The same of dry friction, N. */
-    float ease_onset;         /**< Push over which the damping comes in, N. */
-    float ease_change;        /**< How fast a force may change that no motion explains, N/s; 0: no easing. */
-    float max_slew;           /**< How fast the force may grow, N/s; INFINITY for no limit. */
-    float safe_damping;       /**< What the motors brake with after a fault, N·s/m; 0: nothing. */
-    float link_timeout;       /**< Seconds of silence after which the host is lost; INFINITY where none watches. */
-    uint32_t max_overruns;    /**< Ticks in a row that may overrun before it is a fault. */
-    uint32_t settle_ticks;    /**< Ticks of believable sensors before the loop is armed. */
-    uint32_t wait_for_homing; /**< 1: the loop waits for #PALPATE_HOMED before it is armed. Its own homing waits anyway. */
-    uint32_t leave_weight;    /**< 1: the motors do not carry the links' weight. */
-    uint32_t between_counts;  /**< 1: estimates the position between encoder counts, best with a corner of 80 Hz. */
+    float passivity_damping;  /**< The most that passivity control adds, N·s/m, not negative; 0: none. */
+    float passivity_resolution; /**< How far the probe seems to move when every encoder counts one, m, positive. */
+    float device_damping;     /**< What the device has at least, for passivity control, N·s/m, not negative; 0 to be careful. */
+    float device_friction;    /**< The same of dry friction, N, not negative. */
+    float ease_onset;         /**< Push over which the damping comes in, N, not negative. */
+    float ease_change;        /**< How fast a force may change that no motion explains, N/s, not negative; 0: no easing. */
+    float max_slew;           /**< How fast the force may grow, N/s, positive; INFINITY for no limit. */
+    float safe_damping;       /**< What the motors brake with after a fault, N·s/m, 0 to palpate_device::max_damping; 0: nothing. */
+    float link_timeout;       /**< Seconds of silence after which the host is lost, positive; INFINITY where none watches. */
+    uint32_t max_overruns;    /**< Ticks in a row that may overrun before it is a fault, any number; 0: the first is one. */
+    uint32_t settle_ticks;    /**< Ticks of believable sensors before the loop is armed, any number; 0 is as 1. */
+    uint32_t wait_for_homing; /**< 0, or 1: the loop waits for #PALPATE_HOMED before it is armed. Its own homing waits anyway. */
+    uint32_t leave_weight;    /**< 0, or 1: no gravity compensation. */
+    uint32_t between_counts;  /**< 0, or 1: estimates the position between encoder counts, best with a corner of 80 Hz. */
 } palpate_settings;
 
 /** What a texture may look at. */
@@ -604,25 +664,30 @@ typedef void (*palpate_texture_force)(const palpate_touched *touched, float *for
  * Takes the program's texture, one for all loops whose palpate_settings::texture_share is not 0: before those start.
  *
  * @param force the function, which stays
+ * @return #PALPATE_OK.
  */
 palpate_status palpate_texture(palpate_texture_force force);
 
 /** What a motor's winding bears. */
 typedef struct palpate_endurance {
-    float continuous;    /**< Torque that it bears for ever, as a share of full duty. */
-    float time_constant; /**< Of the winding, s. */
+    float continuous;    /**< Continuous torque, as a share of full duty, positive; above 1 the amplifier is the limit. */
+    float time_constant; /**< Thermal, of the winding, s: 100 to 2,400,000 ticks, at most 600 s. */
 } palpate_endurance;
 
 /** What protects motors and hand. Joints that the device does not have are not looked at. */
 typedef struct palpate_protection {
     palpate_endurance motors[3]; /**< What each motor bears. */
-    float max_joint_rates[3];    /**< Greatest speed of each joint while force is given, rad/s. */
-    float max_probe_speed;       /**< Greatest speed of the probe while force is given, m/s. */
-    uint32_t watch_signs;        /**< 1: an encoder that counts against its motor is a fault. */
-    float inertia[3];            /**< What turns with each joint, kg·m²; for that watch. */
-    uint32_t watch_supply;       /**< 1: a supply out of range, or not told by palpate_servo_supply(), is a fault. */
-    uint32_t least_supply;       /**< mV. */
-    uint32_t most_supply;        /**< mV. */
+    float max_joint_rates[3];    /**< Maximum speed of each joint while force is given, rad/s, positive. */
+    float max_probe_speed;       /**< Maximum speed of the probe while force is given, m/s, positive. */
+    uint32_t watch_signs;        /**< 0, or 1: polarity check. Until each motor was seen to push the right way the loop
+                                      gives no force and no gravity compensation, and in the first contacts after a start
+                                      pulses one motor after another, 8 ms, at most a quarter of max_force. A motor that
+                                      pushes the wrong way is #PALPATE_FAULT_WRONG_POLARITY. With recorded counts no
+                                      joint follows its pulse, and no force comes: 0 there. */
+    float inertia[3];            /**< Moment of inertia that turns with each joint, kg·m², positive; for that check. */
+    uint32_t watch_supply;       /**< 0, or 1: a supply out of range, or not told by palpate_servo_supply(), is a fault. */
+    uint32_t least_supply;       /**< Minimum, mV. */
+    uint32_t most_supply;        /**< Maximum, mV, above it. */
 } palpate_protection;
 
 /** palpate_homing::by. */
@@ -643,15 +708,15 @@ typedef struct palpate_reference {
 
 /** How a loop finds out where its joints are. Joints that the device does not have are not looked at. */
 typedef struct palpate_homing {
-    uint32_t by;                 /**< By what. */
-    uint32_t still_ticks;        /**< For so many ticks ... */
-    uint32_t still_counts;       /**< ... within so many counts: that is still. */
-    uint32_t timeout_ticks;      /**< After so many ticks it is refused, a fault. */
-    uint32_t when_asked;         /**< 1: it goes on only while force is asked for, as stops always do. */
+    uint32_t by;                 /**< #PALPATE_BY_POSE, #PALPATE_BY_INDEX or #PALPATE_BY_STOPS. */
+    uint32_t still_ticks;        /**< Ticks that the device must hold still, 1 at least ... */
+    uint32_t still_counts;       /**< ... within this number of counts of each encoder. */
+    uint32_t timeout_ticks;      /**< Ticks after which it is refused, a fault; above still_ticks. */
+    uint32_t when_asked;         /**< 0, or 1: it goes on only while force is asked for, as stops always do. */
     palpate_reference joints[3]; /**< Each joint's. */
 } palpate_homing;
 
-/** Fills in the defaults: 1 kHz, a soft wall and little force, within what every device that ships takes. */
+/** Fills in the defaults: 1 kHz, a soft wall and little force, within what every device that ships takes. @return #PALPATE_OK. */
 palpate_status palpate_settings_default(palpate_settings *settings);
 
 /**
@@ -660,6 +725,7 @@ palpate_status palpate_settings_default(palpate_settings *settings);
  *
  * @param settings where they go
  * @param device   the device
+ * @return #PALPATE_OK, or what of the device is refused: #PALPATE_DEVICE_ENCODER to #PALPATE_DEVICE_LIMIT.
  */
 palpate_status palpate_settings_recommended(palpate_settings *settings, const palpate_device *device);
 /** @} */
@@ -701,21 +767,22 @@ enum {
 typedef struct palpate_output {
     uint32_t drives;   /**< 0: every stage off; 1: these duties. */
     int32_t duties[3]; /**< Full scale -32767 to 32767. */
-    uint32_t phase;    /**< What the loop is doing. */
-    uint32_t fault;    /**< What stopped it, 0 for nothing; palpate_fault_text() has it in words. */
+    uint32_t phase;    /**< #PALPATE_PHASE_RESET to #PALPATE_PHASE_FAULT. */
+    uint32_t fault;    /**< What stopped it, such as #PALPATE_FAULT_JOINT_JUMPED; 0 for nothing. */
 } palpate_output;
 
 /** A loop's state after a tick. */
 typedef struct palpate_state {
     uint32_t ticks;         /**< Ticks done. */
-    uint32_t phase;         /**< What the loop is doing. */
-    uint32_t fault;         /**< What stopped it, 0 for nothing. */
+    uint32_t phase;         /**< #PALPATE_PHASE_RESET to #PALPATE_PHASE_FAULT. */
+    uint32_t fault;         /**< What stopped it, such as #PALPATE_FAULT_JOINT_JUMPED; 0 for nothing. */
     uint32_t fault_tick;    /**< At which tick. */
     uint32_t contact;       /**< 0 behind the surface, 1 in front of it, 2 touching. */
     uint32_t feature;       /**< As palpate_touch::feature. */
     uint32_t frames_lost;   /**< Frames lost, late or damaged so far. */
     uint32_t overruns;      /**< Ticks that overran so far. */
-    uint32_t contacts_lost; /**< How often contact ended because no motion explained it. */
+    uint32_t contacts_lost; /**< How often contact ended, and the force with it, because no wall holds a hand so deep or no motion
+                                 explained it. Too often: #PALPATE_FAULT_CONTACT_LOST. */
     uint32_t rejected_steps;  /**< Rejected steps so far. */
     uint32_t refusal;       /**< Why homing was refused, 0 if it was not; palpate_refusal_text() has it in words. */
     uint32_t too_deep;      /**< As palpate_touch::too_deep, while touching. */
@@ -741,27 +808,32 @@ typedef struct palpate_state {
  * @param device      the device's numbers; as many joints are read as the mechanism has
  * @param body        the body to render; it must outlive the loop
  * @param settings    the settings
- * @param reset       why the chip was reset
+ * @param reset       why the chip was reset: #PALPATE_RESET_POWER_ON to #PALPATE_RESET_UNKNOWN
+ * @return #PALPATE_OK; else there is no loop, its handle is #PALPATE_NOT_READY, and nothing drives. Every function that starts a
+ *         loop: #PALPATE_TOO_SMALL of servo_bytes, #PALPATE_NOT_READY of the body, #PALPATE_NOT_FINITE of a number,
+ *         #PALPATE_OUT_OF_RANGE of reset or of a field that is 0 or 1, #PALPATE_DEVICE_ENCODER to
+ *         #PALPATE_DEVICE_WEIGHT, #PALPATE_SETTINGS_RATE to #PALPATE_SETTINGS_EASE; with protection
+ *         #PALPATE_PROTECTION_CONTINUOUS to #PALPATE_PROTECTION_INERTIA; of a dial the PALPATE_KNOB_ values.
  */
 palpate_status palpate_servo_start_serial_arm(palpate_servo *servo, size_t servo_bytes,
                                               const palpate_serial_arm *mechanism, const palpate_device *device,
                                               const palpate_body *body, const palpate_settings *settings,
                                               uint32_t reset);
-/** The same on a delta, which has three joints. */
+/** The same on a delta, which has three joints. @return as palpate_servo_start_serial_arm(). */
 palpate_status palpate_servo_start_delta(palpate_servo *servo, size_t servo_bytes, const palpate_delta *mechanism,
                                          const palpate_device *device, const palpate_body *body,
                                          const palpate_settings *settings, uint32_t reset);
-/** The same on a linkage arm, which has three joints. */
+/** The same on a linkage arm, which has three joints. @return as palpate_servo_start_serial_arm(). */
 palpate_status palpate_servo_start_linkage_arm(palpate_servo *servo, size_t servo_bytes,
                                                const palpate_linkage_arm *mechanism, const palpate_device *device,
                                                const palpate_body *body, const palpate_settings *settings,
                                                uint32_t reset);
-/** The same on a five-bar, which has two joints. */
+/** The same on a five-bar, which has two joints. @return as palpate_servo_start_serial_arm(). */
 palpate_status palpate_servo_start_five_bar(palpate_servo *servo, size_t servo_bytes,
                                             const palpate_five_bar *mechanism, const palpate_device *device,
                                             const palpate_body *body, const palpate_settings *settings,
                                             uint32_t reset);
-/** The same on a paddle, which has one joint. */
+/** The same on a paddle, which has one joint. @return as palpate_servo_start_serial_arm(). */
 palpate_status palpate_servo_start_paddle(palpate_servo *servo, size_t servo_bytes, const palpate_paddle *mechanism,
                                           const palpate_device *device, const palpate_body *body,
                                           const palpate_settings *settings, uint32_t reset);
@@ -776,85 +848,86 @@ palpate_status palpate_servo_start_paddle(palpate_servo *servo, size_t servo_byt
  * @param body        the body to render; it must outlive the loop
  * @param settings    the settings
  * @param protection  the limits of motors and joints, for as many joints
- * @param reset       why the chip was reset
+ * @param reset       why the chip was reset: #PALPATE_RESET_POWER_ON to #PALPATE_RESET_UNKNOWN
+ * @return as all functions that start a loop: see palpate_servo_start_serial_arm().
  */
 palpate_status palpate_servo_start_serial_arm_protected(palpate_servo *servo, size_t servo_bytes,
                                                         const palpate_serial_arm *mechanism,
                                                         const palpate_device *device, const palpate_body *body,
                                                         const palpate_settings *settings,
                                                         const palpate_protection *protection, uint32_t reset);
-/** The same on a delta, which has three joints. */
+/** The same on a delta, which has three joints. @return as palpate_servo_start_serial_arm(). */
 palpate_status palpate_servo_start_delta_protected(palpate_servo *servo, size_t servo_bytes,
                                                    const palpate_delta *mechanism, const palpate_device *device,
                                                    const palpate_body *body, const palpate_settings *settings,
                                                    const palpate_protection *protection, uint32_t reset);
-/** The same on a linkage arm, which has three joints. */
+/** The same on a linkage arm, which has three joints. @return as palpate_servo_start_serial_arm(). */
 palpate_status palpate_servo_start_linkage_arm_protected(palpate_servo *servo, size_t servo_bytes,
                                                          const palpate_linkage_arm *mechanism,
                                                          const palpate_device *device, const palpate_body *body,
                                                          const palpate_settings *settings,
                                                          const palpate_protection *protection, uint32_t reset);
-/** The same on a five-bar, which has two joints. */
+/** The same on a five-bar, which has two joints. @return as palpate_servo_start_serial_arm(). */
 palpate_status palpate_servo_start_five_bar_protected(palpate_servo *servo, size_t servo_bytes,
                                                       const palpate_five_bar *mechanism, const palpate_device *device,
                                                       const palpate_body *body, const palpate_settings *settings,
                                                       const palpate_protection *protection, uint32_t reset);
-/** The same on a paddle, which has one joint. */
+/** The same on a paddle, which has one joint. @return as palpate_servo_start_serial_arm(). */
 palpate_status palpate_servo_start_paddle_protected(palpate_servo *servo, size_t servo_bytes,
                                                     const palpate_paddle *mechanism, const palpate_device *device,
                                                     const palpate_body *body, const palpate_settings *settings,
                                                     const palpate_protection *protection, uint32_t reset);
 
-/** Starts a loop without protection on a serial arm, with a body that gives way. */
+/** Starts a loop without protection on a serial arm, with a body that gives way. @return as palpate_servo_start_serial_arm(). */
 palpate_status palpate_servo_start_serial_arm_soft(palpate_servo *servo, size_t servo_bytes,
                                                    const palpate_serial_arm *mechanism, const palpate_device *device,
                                                    const palpate_soft_body *body, const palpate_settings *settings,
                                                    uint32_t reset);
-/** The same on a delta. */
+/** The same on a delta. @return as palpate_servo_start_serial_arm(). */
 palpate_status palpate_servo_start_delta_soft(palpate_servo *servo, size_t servo_bytes, const palpate_delta *mechanism,
                                               const palpate_device *device, const palpate_soft_body *body,
                                               const palpate_settings *settings, uint32_t reset);
-/** The same on a linkage arm. */
+/** The same on a linkage arm. @return as palpate_servo_start_serial_arm(). */
 palpate_status palpate_servo_start_linkage_arm_soft(palpate_servo *servo, size_t servo_bytes,
                                                     const palpate_linkage_arm *mechanism, const palpate_device *device,
                                                     const palpate_soft_body *body, const palpate_settings *settings,
                                                     uint32_t reset);
-/** The same on a five-bar. */
+/** The same on a five-bar. @return as palpate_servo_start_serial_arm(). */
 palpate_status palpate_servo_start_five_bar_soft(palpate_servo *servo, size_t servo_bytes,
                                                  const palpate_five_bar *mechanism, const palpate_device *device,
                                                  const palpate_soft_body *body, const palpate_settings *settings,
                                                  uint32_t reset);
-/** The same on a paddle. */
+/** The same on a paddle. @return as palpate_servo_start_serial_arm(). */
 palpate_status palpate_servo_start_paddle_soft(palpate_servo *servo, size_t servo_bytes,
                                                const palpate_paddle *mechanism, const palpate_device *device,
                                                const palpate_soft_body *body, const palpate_settings *settings,
                                                uint32_t reset);
-/** Starts a loop with protection on a serial arm, with a body that gives way. */
+/** Starts a loop with protection on a serial arm, with a body that gives way. @return as palpate_servo_start_serial_arm(). */
 palpate_status palpate_servo_start_serial_arm_soft_protected(palpate_servo *servo, size_t servo_bytes,
                                                              const palpate_serial_arm *mechanism,
                                                              const palpate_device *device,
                                                              const palpate_soft_body *body,
                                                              const palpate_settings *settings,
                                                              const palpate_protection *protection, uint32_t reset);
-/** The same on a delta. */
+/** The same on a delta. @return as palpate_servo_start_serial_arm(). */
 palpate_status palpate_servo_start_delta_soft_protected(palpate_servo *servo, size_t servo_bytes,
                                                         const palpate_delta *mechanism, const palpate_device *device,
                                                         const palpate_soft_body *body, const palpate_settings *settings,
                                                         const palpate_protection *protection, uint32_t reset);
-/** The same on a linkage arm. */
+/** The same on a linkage arm. @return as palpate_servo_start_serial_arm(). */
 palpate_status palpate_servo_start_linkage_arm_soft_protected(palpate_servo *servo, size_t servo_bytes,
                                                               const palpate_linkage_arm *mechanism,
                                                               const palpate_device *device,
                                                               const palpate_soft_body *body,
                                                               const palpate_settings *settings,
                                                               const palpate_protection *protection, uint32_t reset);
-/** The same on a five-bar. */
+/** The same on a five-bar. @return as palpate_servo_start_serial_arm(). */
 palpate_status palpate_servo_start_five_bar_soft_protected(palpate_servo *servo, size_t servo_bytes,
                                                            const palpate_five_bar *mechanism,
                                                            const palpate_device *device, const palpate_soft_body *body,
                                                            const palpate_settings *settings,
                                                            const palpate_protection *protection, uint32_t reset);
-/** The same on a paddle. */
+/** The same on a paddle. @return as palpate_servo_start_serial_arm(). */
 palpate_status palpate_servo_start_paddle_soft_protected(palpate_servo *servo, size_t servo_bytes,
                                                          const palpate_paddle *mechanism, const palpate_device *device,
                                                          const palpate_soft_body *body,
@@ -871,12 +944,13 @@ palpate_status palpate_servo_start_paddle_soft_protected(palpate_servo *servo, s
  * @param device      the device's numbers; of a dial that turns without end the range is -INFINITY to INFINITY
  * @param feel        the feel to start with
  * @param settings    the settings
- * @param reset       why the chip was reset
+ * @param reset       why the chip was reset: #PALPATE_RESET_POWER_ON to #PALPATE_RESET_UNKNOWN
+ * @return as all functions that start a loop: see palpate_servo_start_serial_arm().
  */
 palpate_status palpate_servo_start_dial(palpate_servo *servo, size_t servo_bytes, const palpate_dial *dial,
                                         const palpate_device *device, const palpate_feel *feel,
                                         const palpate_settings *settings, uint32_t reset);
-/** The same with protection. */
+/** The same with protection. @return as palpate_servo_start_serial_arm(). */
 palpate_status palpate_servo_start_dial_protected(palpate_servo *servo, size_t servo_bytes, const palpate_dial *dial,
                                                   const palpate_device *device, const palpate_feel *feel,
                                                   const palpate_settings *settings,
@@ -891,6 +965,7 @@ palpate_status palpate_servo_start_dial_protected(palpate_servo *servo, size_t s
  * @param part  which, such as #PALPATE_FEEL_DETENTS
  * @param feel  holds the part; nothing else of it is looked at
  * @param beyond the number that was refused, or NULL; written on a refusal of the part only
+ * @return #PALPATE_OK, #PALPATE_OUT_OF_RANGE of the part, or #PALPATE_KNOB_NONE to #PALPATE_KNOB_FAR.
  */
 palpate_status palpate_servo_set_feel(palpate_servo *servo, uint32_t part, const palpate_feel *feel,
                                       palpate_beyond *beyond);
@@ -900,6 +975,7 @@ palpate_status palpate_servo_set_feel(palpate_servo *servo, uint32_t part, const
  *
  * @param servo the loop
  * @param feel  where it goes
+ * @return #PALPATE_OK, or #PALPATE_KNOB_NONE.
  */
 palpate_status palpate_servo_feel(palpate_servo *servo, palpate_feel *feel);
 
@@ -908,6 +984,7 @@ palpate_status palpate_servo_feel(palpate_servo *servo, palpate_feel *feel);
  *
  * @param servo the loop
  * @param dial  where it goes
+ * @return #PALPATE_OK, or #PALPATE_KNOB_NONE.
  */
 palpate_status palpate_servo_dial(palpate_servo *servo, palpate_turned *dial);
 
@@ -915,10 +992,12 @@ palpate_status palpate_servo_dial(palpate_servo *servo, palpate_turned *dial);
  * One tick, from encoder counts to duties. The output is off unless the call comes back with #PALPATE_OK.
  *
  * @param servo  the loop
- * @param counts encoder counts, one a joint
+ * @param counts encoder counts, one a joint, signed and unwrapped (not 16 bits of a timer), within 2^24 of 0; a jump
+ *               above max_joint_rate / rate, or an angle out of range, is a fault
  * @param joints how many: as many as the mechanism has
  * @param enable not 0: force is asked for
  * @param output where what the motors get goes
+ * @return #PALPATE_OK, also with a fault (palpate_output::fault); #PALPATE_OUT_OF_RANGE of joints: nothing has ticked.
  */
 palpate_status palpate_servo_tick(palpate_servo *servo, const int32_t *counts, size_t joints, uint32_t enable,
                                   palpate_output *output);
@@ -929,6 +1008,7 @@ palpate_status palpate_servo_tick(palpate_servo *servo, const int32_t *counts, s
  * @param servo   the loop
  * @param damaged 0: no frame came, or one of another tick; else one that is damaged
  * @param output  where what the motors get goes
+ * @return #PALPATE_OK.
  */
 palpate_status palpate_servo_tick_without(palpate_servo *servo, uint32_t damaged, palpate_output *output);
 
@@ -936,8 +1016,9 @@ palpate_status palpate_servo_tick_without(palpate_servo *servo, uint32_t damaged
  * Takes note of what happened outside a tick, at any time between two ticks.
  *
  * @param servo  the loop
- * @param event  what happened
+ * @param event  what happened: #PALPATE_LINK_ALIVE to #PALPATE_ACKNOWLEDGED
  * @param output where what the motors now get goes
+ * @return #PALPATE_OK, or #PALPATE_OUT_OF_RANGE of the event.
  */
 palpate_status palpate_servo_note(palpate_servo *servo, uint32_t event, palpate_output *output);
 
@@ -947,6 +1028,7 @@ palpate_status palpate_servo_note(palpate_servo *servo, uint32_t event, palpate_
  * @param servo      the loop
  * @param millivolts mV
  * @param output     where what the motors now get goes
+ * @return #PALPATE_OK.
  */
 palpate_status palpate_servo_supply(palpate_servo *servo, uint32_t millivolts, palpate_output *output);
 
@@ -956,6 +1038,7 @@ palpate_status palpate_servo_supply(palpate_servo *servo, uint32_t millivolts, p
  *
  * @param servo  the loop
  * @param homing how
+ * @return #PALPATE_OK, #PALPATE_OUT_OF_RANGE of by or when_asked, or #PALPATE_HOMING_ANGLE to #PALPATE_HOMING_STARTED.
  */
 palpate_status palpate_servo_home(palpate_servo *servo, const palpate_homing *homing);
 
@@ -966,6 +1049,7 @@ palpate_status palpate_servo_home(palpate_servo *servo, const palpate_homing *ho
  * @param joint  which, from 0
  * @param counts the count that was caught there
  * @param output where what the motors now get goes
+ * @return #PALPATE_OK, or #PALPATE_OUT_OF_RANGE of the joint.
  */
 palpate_status palpate_servo_index(palpate_servo *servo, uint32_t joint, int32_t counts, palpate_output *output);
 
@@ -974,6 +1058,7 @@ palpate_status palpate_servo_index(palpate_servo *servo, uint32_t joint, int32_t
  *
  * @param servo the loop
  * @param state where it goes
+ * @return #PALPATE_OK.
  */
 palpate_status palpate_servo_state(palpate_servo *servo, palpate_state *state);
 
@@ -982,6 +1067,7 @@ palpate_status palpate_servo_state(palpate_servo *servo, palpate_state *state);
  *
  * @param servo the loop
  * @param q     where they go, #PALPATE_MAX_MODES numbers, m; those of modes that the body has not are 0
+ * @return #PALPATE_OK, or #PALPATE_SOFT_NONE.
  */
 palpate_status palpate_servo_modes(palpate_servo *servo, float *q);
 /** @} */
@@ -1006,6 +1092,7 @@ typedef struct palpate_heard {
  *
  * @param receiver       where it goes
  * @param receiver_bytes `sizeof` it
+ * @return #PALPATE_OK.
  */
 palpate_status palpate_receiver_start(palpate_receiver *receiver, size_t receiver_bytes);
 
@@ -1015,6 +1102,7 @@ palpate_status palpate_receiver_start(palpate_receiver *receiver, size_t receive
  * @param receiver the receiver
  * @param byte     the byte
  * @param heard    where what it completed goes
+ * @return #PALPATE_OK.
  */
 palpate_status palpate_receiver_feed(palpate_receiver *receiver, uint8_t byte, palpate_heard *heard);
 
@@ -1026,6 +1114,7 @@ palpate_status palpate_receiver_feed(palpate_receiver *receiver, uint8_t byte, p
  * @param frame        where the frame goes
  * @param frame_bytes  how much there is; #PALPATE_MAX_FRAME holds any
  * @param written      where the frame's length goes
+ * @return #PALPATE_OK, or #PALPATE_TOO_SMALL of the frame.
  */
 palpate_status palpate_servo_report(palpate_servo *servo, uint32_t instructions, uint8_t *frame, size_t frame_bytes,
                                     size_t *written);

@@ -2,6 +2,7 @@
 //! Read from both sources; no compiler for boards is needed. And C and C++ compilers take it as it is.
 
 use crate::running::{file, is_wanted, run};
+use palpate::servo::Fault;
 use palpate_tool::in_c::{self, Core};
 use std::collections::BTreeMap;
 use std::fs;
@@ -108,6 +109,13 @@ fn declared(name: &str, rust: &Type) -> String {
     format!("{before}{space}{name}{after}")
 }
 
+/// A name of Rust as the end of one in the header: `FrameLost` is `_FRAME_LOST`.
+fn in_capitals(name: &str) -> String {
+    name.chars()
+        .flat_map(|letter| letter.is_uppercase().then_some('_').into_iter().chain(letter.to_uppercase()))
+        .collect()
+}
+
 /// The items of a source, with the items that its macro of one rule makes: each parameter replaced by its argument.
 fn expanded(items: Vec<Item>) -> Vec<Item> {
     let mut rule: Option<(String, Vec<String>, String)> = None;
@@ -192,14 +200,7 @@ impl Library {
                     else {
                         panic!("a number")
                     };
-                    let mut name = PREFIX.to_owned();
-                    for letter in code.ident.to_string().chars() {
-                        if letter.is_uppercase() {
-                            name.push('_');
-                        }
-                        name.extend(letter.to_uppercase());
-                    }
-                    self.codes.insert(name, number.to_string());
+                    self.codes.insert(format!("{PREFIX}{}", in_capitals(&code.ident.to_string())), number.to_string());
                 }
             }
             Item::Const(constant) if constant.ident.to_string().ends_with("_WORDS") => {
@@ -267,11 +268,16 @@ fn the_header_has_every_number_of_the_library() {
     {
         assert!(header.contains(&format!("{PREFIX}_PHASE_{name} = {}", phase as u8)), "{name}");
     }
+    assert_eq!(header.matches(&format!("{PREFIX}_FAULT_")).count(), Fault::ALL.len());
+    for fault in Fault::ALL {
+        let entry = format!("{PREFIX}_FAULT{} = {}", in_capitals(&format!("{fault:?}")), fault.code());
+        assert!(header.contains(&format!("{entry},")) || header.contains(&format!("{entry} }}")), "{entry}");
+    }
     assert!(header.contains(&format!("{PREFIX}_MAX_FRAME {}", palpate::wire::frame::MAX_FRAME)));
     assert!(header.contains(&format!("{PREFIX}_MAX_MODES {}", palpate::field::MAX_MODES)));
 }
 
-/// Each function, structure and field says what it is.
+/// Each function, structure and field says what it is, and each function what comes back.
 #[test]
 fn everything_in_the_header_is_documented() {
     let text = fs::read_to_string(file("include/palpate.h")).expect("the header");
@@ -281,6 +287,13 @@ fn everything_in_the_header_is_documented() {
         let starts = line.starts_with("palpate_status palpate_") || line.starts_with("typedef ") || *line == "enum {";
         if starts || line.starts_with("const char *palpate_") {
             assert!(before.trim_end().ends_with("*/"), "nothing is said of {line}");
+            let comment =
+                text.split_once(line).and_then(|(before, _)| before.rsplit_once("/**")).map_or("", |(_, last)| last);
+            let says = comment.contains("@return") || comment.starts_with(" Returns ");
+            assert!(
+                says || !line.contains(" *palpate_") && !line.starts_with("palpate_status"),
+                "what does {line} return?"
+            );
         }
         let is_field = line.starts_with("    ") && (line.contains(';') || line.contains(" = ")) && !line.contains(')');
         if is_field || line.trim_start().starts_with(PREFIX) {
