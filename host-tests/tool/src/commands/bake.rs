@@ -13,11 +13,12 @@ use clap::Args;
 use glam::DVec3;
 use palpate::body::{Body, TickLimit, TickWork};
 use palpate::math::Vec3;
-use palpate_bake::body::BodyBytes;
+use palpate_bake::body::{BakedBody, BodyBytes};
 use palpate_bake::file::FileFault;
 use palpate_bake::graph;
 use palpate_bake::source::{self, Origin};
 use palpate_bake::survey::Verdict;
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -28,7 +29,7 @@ use std::process::ExitCode;
 /// bytes anywhere, on any number of cores.
 ///
 /// A name that ends in .palp gives a binary body file, for palpate::body::Body::from_bytes and every command that takes
-/// a model.
+/// a model; one that ends in .h the same as an array of C, part_palp, with PART_FACES and PART_EDGES for its buffer.
 ///
 /// --soft: the body deforms. Of a closed body of one elastic material (youngs_modulus_pa, poissons_ratio, density_kg_per_m3,
 /// damping_ratio) the modes of lowest frequency that a quadratic displacement of space holds go to a modes file, beside
@@ -42,7 +43,7 @@ use std::process::ExitCode;
 pub struct Arguments {
     /// Model: a file, or the name of a shipped one.
     model: PathBuf,
-    /// Output: Rust source, or binary if it ends in .palp.
+    /// Output: Rust source (.rs), a C header (.h), or binary (.palp).
     #[arg(long, value_name = "FILE", group = "product")]
     out: Option<PathBuf>,
     /// Feature graph (Graphviz .dot).
@@ -82,6 +83,13 @@ pub struct Arguments {
 /// # Errors
 /// The cause, for the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    if let Some(out) = &arguments.out {
+        ensure!(
+            is_baked(out) || is_header(out) || has_ending(out, "rs"),
+            "{}: its ending says what to write: .rs for Rust source, .h for a C header, .palp for a body file",
+            out.display()
+        );
+    }
     let mut loaded = Loaded::read(&arguments.model)?;
     let labels = loaded.body.labels(&loaded.model);
     let is_body = loaded.body.faces.len() > 1;
@@ -112,6 +120,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     check_tick(&loaded.file.label, &tables, limit)?;
     if let Some(out) = arguments.out.as_ref().filter(|out| is_baked(out)) {
         write_whole(out, &file(&loaded)?)?;
+    } else if let Some(out) = arguments.out.as_ref().filter(|out| is_header(out)) {
+        write_whole(out, array(&file(&loaded)?, &loaded.body).as_bytes())?;
     } else if let Some(out) = &arguments.out {
         let origin = Origin {
             model_file: &loaded.file.name,
@@ -151,7 +161,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         eprintln!("{}: {}", arguments.model.display(), loaded.describe(flaw));
     }
     let verdict = loaded.verdict(&flaws);
-    eprintln!("{}: {} faces, {verdict}", arguments.model.display(), loaded.body.faces.len());
+    let (faces, edges) = (loaded.body.faces.len(), loaded.body.edges.len());
+    eprintln!("{}: {faces} faces, {edges} edges, {verdict}", arguments.model.display());
     if verdict == Verdict::Usable {
         eprintln!("{}", check::NOT_CERTIFIED);
     }
@@ -188,7 +199,7 @@ fn check_tick(label: &str, body: &Body<'_>, limit: TickLimit) -> anyhow::Result<
 
 /// Whether the product contains the locator: the source of a single patch has none.
 fn needs_locator(arguments: &Arguments, is_body: bool) -> bool {
-    let in_file = arguments.out.as_ref().is_some_and(|out| is_body || is_baked(out));
+    let in_file = arguments.out.as_ref().is_some_and(|out| is_body || is_baked(out) || is_header(out));
     in_file || arguments.table_report && is_body
 }
 
@@ -238,12 +249,55 @@ pub(super) fn baked(path: &Path, out_file: &str) -> anyhow::Result<Baked> {
 /// # Errors
 /// The reason why the model is refused.
 pub(super) fn file_of(path: &Path) -> anyhow::Result<Vec<u8>> {
+    Ok(file(&located(path)?)?)
+}
+
+/// A model's body as a C header, as [`run`] writes it with its defaults.
+///
+/// # Errors
+/// The reason why the model is refused.
+pub(super) fn header(path: &Path) -> anyhow::Result<String> {
+    let loaded = located(path)?;
+    Ok(array(&file(&loaded)?, &loaded.body))
+}
+
+/// A model with the default locator.
+fn located(path: &Path) -> anyhow::Result<Loaded> {
     let mut loaded = Loaded::read(path)?;
     let options = loaded.body.locator_options();
     let bar = progress::work();
     let progress = |done, all| bar.tell("cells of space", done, all);
     loaded.body = loaded.file.located(loaded.body, &options, None, &progress)?;
-    Ok(file(&loaded)?)
+    Ok(loaded)
+}
+
+/// A body's file as an array of C.
+fn array(file: &[u8], body: &BakedBody) -> String {
+    let mut text = format!(
+        "// A body's file as `palpate bake` wrote it.\n#pragma once\n#include <stdint.h>\n\n\
+         #define PART_FACES {}\n#define PART_EDGES {}\n\n\
+         static const uint8_t part_palp[] __attribute__((aligned(4))) = {{\n",
+        body.faces.len(),
+        body.edges.len()
+    );
+    for row in file.chunks(20) {
+        text.push_str("   ");
+        for byte in row {
+            let _ = write!(text, " {byte},");
+        }
+        text.push('\n');
+    }
+    text.push_str("};\n");
+    text
+}
+
+fn has_ending(path: &Path, ending: &str) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(ending))
+}
+
+/// Whether a C header is to be written.
+fn is_header(path: &Path) -> bool {
+    has_ending(path, "h")
 }
 
 /// A loaded model's body as a file.

@@ -1,13 +1,12 @@
 //! `palpate c-library`: the library for C as a package for CMake, pkg-config, Zephyr, Arduino and PlatformIO.
 
+use super::bake;
 use crate::firmware::Progress;
 use crate::in_c::{self, Core};
 use crate::repository;
 use anyhow::{Context as _, bail, ensure};
 use clap::Args;
-use palpate_bake::file::BakedFile;
 use palpate_sim::devices::{DEVICES, c_preset};
-use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
@@ -20,8 +19,8 @@ pub struct Arguments {
     /// Output folder, or a file palpate.zip; must not exist
     #[arg(long)]
     out: PathBuf,
-    /// Body of the examples, a `.palp`; default: the capped box
-    #[arg(long, value_name = "FILE")]
+    /// Body of the examples: a model; default: the capped box
+    #[arg(long, value_name = "MODEL")]
     model: Option<PathBuf>,
 }
 
@@ -37,7 +36,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let model = model
         .clone()
         .map_or_else(|| Ok(repository::root()?.join("boards/bodies/capped_box.palp")), Ok::<_, anyhow::Error>)?;
-    let part = part(&model)?;
+    let part = bake::header(&model)?;
     if out.extension().is_some_and(|extension| extension == "zip") {
         let folder = tempfile::tempdir()?;
         let package = folder.path().join("palpate");
@@ -115,27 +114,4 @@ fn save(file: &Path, text: &str) -> anyhow::Result<()> {
 fn copy(from: &Path, to: &Path) -> anyhow::Result<()> {
     fs::create_dir_all(to.parent().unwrap_or(to)).with_context(|| to.display().to_string())?;
     fs::copy(from, to).map(drop).with_context(|| format!("{} to {}", from.display(), to.display()))
-}
-
-/// A body's file as an array of C.
-fn part(file: &Path) -> anyhow::Result<String> {
-    let bytes = fs::read(file).with_context(|| file.display().to_string())?;
-    let read = BakedFile::read(&bytes)
-        .with_context(|| format!("{}: `palpate bake MODEL --out FILE.palp` writes such a file", file.display()))?;
-    let mut text = format!(
-        "// A body's file as `palpate bake` wrote it.\n#pragma once\n#include <stdint.h>\n\n\
-         #define PART_FACES {}\n#define PART_EDGES {}\n\n\
-         static const uint8_t part_palp[] __attribute__((aligned(4))) = {{\n",
-        read.body.faces.len(),
-        read.body.edges.len()
-    );
-    for row in bytes.chunks(20) {
-        text.push_str("   ");
-        for byte in row {
-            let _ = write!(text, " {byte},");
-        }
-        text.push('\n');
-    }
-    text.push_str("};\n");
-    Ok(text)
 }

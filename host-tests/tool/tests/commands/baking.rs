@@ -172,7 +172,7 @@ fn the_tool_answers_in_the_frame_of_the_file_and_the_tables_say_where_theirs_lie
     let plate = fs::read_to_string(model("thin_plate"))?;
     let offset = DVec3::new(3_000.0, -2_000.0, 500.0);
     let run = |command: &str, place: DVec3, options: &[&str]| -> Result<String, Box<dyn Error>> {
-        let [model, queries, out] = ["plate.toml", "in.csv", "out"].map(|name| folder.path().join(name));
+        let [model, queries, out] = ["plate.toml", "in.csv", "out.rs"].map(|name| folder.path().join(name));
         fs::write(&model, moved(&plate, place.to_array()))?;
         // Outside, and inside.
         let rows = [DVec3::new(65.0, 3.0, 7.0), DVec3::new(20.0, 13.0, 0.5)].map(|row| row + place);
@@ -239,5 +239,30 @@ fn a_file_that_is_not_there_is_named_once() -> Result<(), Box<dyn Error>> {
     let message = String::from_utf8_lossy(&run.stderr);
     assert_eq!(run.status.code(), Some(2));
     assert_eq!(message.matches("nowhere.toml").count(), 1, "{message}");
+    Ok(())
+}
+
+#[test]
+fn the_ending_of_the_output_says_what_bake_writes() -> Result<(), Box<dyn Error>> {
+    let directory = tempfile::tempdir()?;
+    let bake = |out: &str| {
+        let mut bake = Command::new(env!("CARGO_BIN_EXE_palpate"));
+        bake.args(["bake", "capped_box", "--out", out]).current_dir(&directory).output()
+    };
+    let run = bake("part.h")?;
+    let said = String::from_utf8_lossy(&run.stderr);
+    assert!(run.status.success() && said.contains("6 faces, 12 edges, "), "{said}");
+    let text = fs::read_to_string(directory.path().join("part.h"))?;
+    // A box has 6 faces and 12 edges; the array holds the file that is kept.
+    assert!(text.contains("#define PART_FACES 6\n#define PART_EDGES 12\n"), "{text}");
+    let (_, array) = text.split_once("= {").ok_or("no array")?;
+    let bytes: Vec<u8> = array.split([',', '\n']).filter_map(|byte| byte.trim().parse().ok()).collect();
+    assert!(bytes == fs::read(repository().join("boards/bodies/capped_box.palp"))?);
+    for out in ["part.txt", "part"] {
+        let run = bake(out)?;
+        let said = String::from_utf8_lossy(&run.stderr);
+        assert!(run.status.code() == Some(2) && said.contains(".rs for Rust source, .h for a C header"), "{said}");
+        assert!(!directory.path().join(out).exists());
+    }
     Ok(())
 }
