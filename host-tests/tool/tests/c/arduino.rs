@@ -25,6 +25,8 @@ static Port Serial;
 inline int digitalRead(int) { return 1; }
 inline void pinMode(int, int) {}
 inline uint32_t micros() { return 0; }
+inline void delay(uint32_t) {}
+struct IntervalTimer { bool begin(void (*tick)(), float) { tick(); return true; } void priority(uint8_t) {} };
 void setup();
 void loop();
 ";
@@ -36,7 +38,11 @@ fn the_examples_of_the_package_link_with_its_libraries_and_the_loop_of_a_host_re
     }
     let folder = tempfile::tempdir().expect("a folder");
     let out = folder.path().join("palpate");
-    let Command { arguments } = Command::parse_from(["c-library", "--out", out.to_str().expect("a path")]);
+    let root = palpate_tool::repository::root().expect("in the repository");
+    // A model that is no body's file; the loop in Rust has the body that is kept.
+    let model = root.join("host-tests/models/capped_box.toml");
+    let [out_name, model] = [&out, &model].map(|path| path.to_str().expect("a path"));
+    let Command { arguments } = Command::parse_from(["c-library", "--out", out_name, "--model", model]);
     {
         let _alone = alone();
         c_library::run(&arguments).expect("the folder is written");
@@ -80,10 +86,25 @@ fn the_examples_of_the_package_link_with_its_libraries_and_the_loop_of_a_host_re
         assert_eq!(said, servo::in_rust(), "{library}");
     }
 
+    // The program of the page.
+    let page = fs::read_to_string(root.join("docs/howto/c.md")).expect("the page");
+    let (source, program) = (out.join("examples/host/first.c"), folder.path().join("first"));
+    let shown = fs::read_to_string(&source).expect("a source");
+    assert!(page.contains(&format!("```c\n{shown}```")), "docs/howto/c.md shows another program than first.c");
+    let mut gcc = in_c::compiler(Core::Host, "gcc").expect("in the repository");
+    gcc.args(["-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-I"]).arg(out.join("src"));
+    gcc.arg(&source).arg(host.join("libpalpate.a"));
+    run(gcc.args(["-lm", "-o"]).arg(&program));
+    let said = run(&mut std::process::Command::new(&program));
+    assert!(page.contains(&format!("```text\n{said}```")), "docs/howto/c.md prints something else than\n{said}");
+    // At rest the wall of 500 N/m is a spring.
+    let numbers: Vec<f64> = said.split([' ', ',']).filter_map(|word| word.parse().ok()).collect();
+    assert!(said.contains("fault: none") && (numbers[1] - 0.5 * numbers[0]).abs() < 0.01, "{said}");
+
     fs::write(folder.path().join("Arduino.h"), ARDUINO).expect("a header");
     for core in [Core::M4, Core::M33] {
         for place in core.arduino() {
-            for sketch in ["Feel", "Servo"] {
+            for (sketch, teensy) in [("Feel", ""), ("Servo", ""), ("Servo", "-DTEENSYDUINO")] {
                 let from = out.join("examples").join(sketch);
                 let main = folder.path().join("main.cpp");
                 let sketch = from.join(format!("{sketch}.ino"));
@@ -95,6 +116,7 @@ fn the_examples_of_the_package_link_with_its_libraries_and_the_loop_of_a_host_re
                 let object = folder.path().join("main.o");
                 let mut gcc = in_c::compiler(core, "g++").expect("in the repository");
                 gcc.args(["-std=c++17", "-fno-exceptions", "-fno-rtti", "-fno-threadsafe-statics"]);
+                gcc.args((!teensy.is_empty()).then_some(teensy));
                 gcc.arg("-ffunction-sections").arg("-I").arg(folder.path()).arg("-I").arg(out.join("src"));
                 run(gcc.arg("-c").arg(&main).arg("-o").arg(&object));
                 // Linked as C: the library of C++ is a large package that nothing here needs.

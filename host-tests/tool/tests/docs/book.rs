@@ -12,7 +12,9 @@ fn words(page: &str) -> usize {
     let mut is_generated = false;
     let mut count = 0;
     for line in page.lines() {
-        is_generated = (is_generated && !line.starts_with('#')) || line.starts_with("<!-- generated");
+        // `#include` is no heading.
+        let is_heading = line.starts_with('#') && line.trim_start_matches('#').starts_with(' ');
+        is_generated = (is_generated && !is_heading) || line.starts_with("<!-- generated");
         if !is_generated {
             count += line.split_whitespace().count();
         }
@@ -23,7 +25,7 @@ fn words(page: &str) -> usize {
 
 #[test]
 fn a_generated_block_is_not_counted() {
-    let page = "one two\n<!-- generated: x -->\n\nthree\n\n<!-- end -->\nfour\n<!-- generated: y -->\nfive\n## six\n";
+    let page = "one two\n<!-- generated: x -->\n\nthree\n#include four\n\n<!-- end -->\nfour\n<!-- generated: y -->\nfive\n## six\n";
     assert_eq!(words(page), 2 + 1 + 2);
 }
 

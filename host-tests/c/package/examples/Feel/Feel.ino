@@ -1,5 +1,5 @@
 // Follows the closest point of a body with a probe that circles above it, and prints how far off the surface is.
-// part.h holds the body: `palpate c-library --model part.palp --out DIR` puts yours there.
+// part.h holds the body: `palpate bake part.step --out part.h` writes yours.
 #include <palpate.h>
 #include "part.h"
 
