@@ -179,28 +179,36 @@ impl<D: Displacement> Body<'_, D> {
         let places = if is_settled { self.places(&state.feature, &state.witness) } else { [None; 2] };
         let (is_single, far) = (self.effort.candidates == 1, distance + MARGIN * self.size);
         let mut left = self.effort.candidates;
-        let mut audit = match &state.seeking {
-            Some(Seeking::Nearer(audit)) if !audit.is_done => *audit,
+        match &state.seeking {
+            Some(Seeking::Nearer(audit)) if !audit.is_done => {}
             Some(Seeking::Nearer(audit)) if audit.is_certain(self, probe, distance, &places) => return,
             last => {
                 left -= u8::from(is_single);
                 let last = if let Some(Seeking::Nearer(last)) = last { Some(last) } else { None };
-                Audit::new(self, probe, last)
+                state.seeking = Some(Seeking::Nearer(Audit::new(self, probe, last)));
             }
-        };
+        }
         // A certificate is of one shape: a body that deforms is searched without end.
-        if !self.by.is_rest() {
+        if !self.by.is_rest()
+            && let Some(Seeking::Nearer(audit)) = &mut state.seeking
+        {
             audit.floor = 0.0;
         }
-        if audit.waits {
+        // In its place: a copy there and back would take 180 instructions.
+        while let Some(Seeking::Nearer(audit)) = &mut state.seeking {
             let CandidateSearch { candidate: Candidate { face, .. }, parameters, half_squared, .. } = audit.descending;
-            self.set_down(state, &Best { face, parameters, half_squared }, known, step);
-            audit.waits = false;
-            audit.go_on(self, 0.0);
-            state.seeking = (!step.switched).then_some(Seeking::Nearer(audit));
-            return;
-        }
-        while !audit.is_done {
+            if audit.waits {
+                audit.waits = false;
+                audit.go_on(self, 0.0);
+                self.set_down(state, &Best { face, parameters, half_squared }, known, step);
+                if step.switched {
+                    state.seeking = None;
+                }
+                return;
+            }
+            if audit.is_done {
+                return;
+            }
             if audit.descending.is_fresh() {
                 if holds(&audit.descending.candidate, &places)
                     && let Some(free) = audit.held.iter_mut().find(|held| **held == NONE)
@@ -212,35 +220,33 @@ impl<D: Displacement> Body<'_, D> {
                 audit.asked = probe;
             }
             if left == 0 {
-                break;
+                return;
             }
             left -= 1;
             step.evaluations += 1;
             let progress = self.search_on::<false>(&mut audit.descending, audit.asked, 0.5 * far * far);
-            let CandidateSearch { candidate: Candidate { face, .. }, parameters, half_squared, at_least, .. } =
-                audit.descending;
+            let CandidateSearch { parameters, half_squared, at_least, .. } = audit.descending;
             let falls = progress == Some(CandidateStatus::Falling);
             if is_single && half_squared < known {
                 audit.waits = true;
-                break;
+                return;
             }
-            if (!falls || left == 0) && half_squared < known {
-                let found = Best { face, parameters, half_squared };
-                self.set_down(state, &found, known, step);
-                if step.switched {
-                    // The point that was left may be the next that is nearer.
-                    state.seeking = None;
-                    return;
-                }
-            }
+            let is_nearer = (!falls || left == 0) && half_squared < known;
             match progress {
                 Some(CandidateStatus::Falling) => {}
                 Some(CandidateStatus::Beaten) => audit.go_on(self, at_least),
                 Some(CandidateStatus::Found) => audit.go_on(self, half_squared),
                 Some(CandidateStatus::Exhausted) | None => audit.go_on(self, 0.0),
             }
+            if is_nearer {
+                self.set_down(state, &Best { face, parameters, half_squared }, known, step);
+                if step.switched {
+                    // The point that was left may be the next that is nearer.
+                    state.seeking = None;
+                    return;
+                }
+            }
         }
-        state.seeking = Some(Seeking::Nearer(audit));
     }
 
     /// The faces that hold the witness point, with `(u, v)` on each.
