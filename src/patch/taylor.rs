@@ -17,6 +17,7 @@
 //! | in all | | 115 |
 
 use super::horner::horner_step;
+use core::array::from_fn;
 
 /// Value and derivatives of a polynomial with `D` components; second derivatives of one variable are halved, as
 /// Horner's rule gives them.
@@ -32,12 +33,19 @@ pub(super) struct Taylor<const D: usize> {
 /// component after the other: together they would not fit into the registers.
 #[inline(always)]
 pub(super) fn evaluate<const D: usize, const Q: usize>(coefficients: &[[f32; D]], s: f32, t: f32) -> Taylor<D> {
+    // Of many coefficients the compiler keeps the loop: filled in order, its result need not be zeroed first, which takes
+    // 60 instructions.
+    if Q >= 5 || coefficients.len() > 16 {
+        let parts: [_; D] = from_fn(|component| evaluate_one::<D, Q>(coefficients, component, s, t));
+        let of = |index: usize| parts.map(|part: [f32; 6]| part[index]);
+        return Taylor { value: of(0), along: [of(1), of(2)], half_ss: of(3), mixed: of(4), half_tt: of(5) };
+    }
     let zero = [0.0; D];
     let mut d = Taylor { value: zero, along: [zero; 2], half_ss: zero, mixed: zero, half_tt: zero };
     for component in 0..D {
         // A branch for each component, never taken: in one block the compiler loads the coefficients of all at once,
-        // and runs out of registers. Of higher degrees it keeps the loop.
-        if D == 3 && Q < 5 && ((component == 1 && s.is_nan()) || (component == 2 && t.is_nan())) {
+        // and runs out of registers.
+        if D == 3 && ((component == 1 && s.is_nan()) || (component == 2 && t.is_nan())) {
             return d;
         }
         let [value, along_s, along_t, half_ss, mixed, half_tt] = evaluate_one::<D, Q>(coefficients, component, s, t);
