@@ -78,7 +78,7 @@ impl Model {
     #[inline(always)]
     pub(super) fn plan(&self, from: [f32; 2]) -> Plan {
         let free = self.free(from);
-        if free.is_inside { free } else { self.on_border(from, free.change) }
+        if free.is_inside { free } else { self.on_border(from, free.parameters) }
     }
 
     /// The step to its free minimiser, wherever that is.
@@ -98,13 +98,13 @@ impl Model {
         -self.gradient[0] * w_u - self.gradient[1] * w_v
     }
 
-    /// The minimiser where the free one is not inside: on a side that this violates.
+    /// The minimiser where the free one, at `to`, is not inside: on a side that this violates.
     #[inline(always)]
-    fn on_border(&self, from: [f32; 2], free: [f32; 2]) -> Plan {
+    fn on_border(&self, from: [f32; 2], to: [f32; 2]) -> Plan {
         let [a, b, c] = self.hessian;
         let [along_u, along_v] = self.gradient;
-        let to = [from[0] + free[0], from[1] + free[1]];
-        let target = [saturate(to[0], 0.0, 1.0), saturate(to[1], 0.0, 1.0)];
+        // Most often one of the two is violated; bits tell that the other is not.
+        let target = to.map(|x| if x.to_bits() <= 1.0_f32.to_bits() { x } else { saturate(x, 0.0, 1.0) });
         // On a side of u, and of v: each a step of one parameter, cut at its ends.
         let side_u = || {
             let slope = along_v + b * (target[0] - from[0]);
@@ -139,7 +139,7 @@ impl Model {
         let mode = border::mode_at(parameters, [pushes_u && change[0] == 0.0, pushes_v && change[1] == 0.0]);
         let is_inside = border::is_inside(parameters);
         // A step that is not finite has no slope.
-        let slope = if (free[0] + free[1]).is_finite() { self.slope(change) } else { 0.0 };
+        let slope = if (to[0] + to[1]).is_finite() { self.slope(change) } else { 0.0 };
         Plan { change, parameters, is_inside, mode, beyond, slope }
     }
 }
