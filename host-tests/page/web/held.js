@@ -46,7 +46,7 @@ export class Held {
   under(loop, device = this.chosen) {
     const found = { ...SLIDES, ...loop.hold(device.file, device.label ?? `${device.name}.toml`) };
     const isNew = device !== this.chosen || this.numbers === undefined;
-    const name = found.name ?? device.name;
+    const name = device.label ? `${found.name ?? device.label} (yours)` : (found.name ?? device.name);
     if (!this.all.has(name)) by("device").add(new Option(name, name));
     this.chosen = { ...device, name };
     if (device.label) this.all.set(name, this.chosen);

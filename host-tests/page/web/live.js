@@ -8,7 +8,7 @@ const SPEED = 500_000;
 
 /** Asks for a port, and opens it. */
 async function connect() {
-  if (!navigator.serial) throw new Error("this browser has no Web Serial: Chromium and Edge do");
+  if (!navigator.serial) throw new Error("this browser has no Web Serial: Chromium and Edge on a computer have it");
   const port = await navigator.serial.requestPort();
   await port.open({ baudRate: SPEED });
   return port;
@@ -73,7 +73,10 @@ export async function toggle(page) {
     buttons.forEach((button) => (button.textContent = "Disconnect"));
   } catch (error) {
     // Whoever closes the browser's list of ports has chosen none.
-    if (error.name !== "NotFoundError") page.refuse(error.message);
+    if (error.name === "NotFoundError") return undefined;
+    // Beside the button as well: on a phone the picture is far above it.
+    for (const id of ["live", "knob-said"]) by(id).textContent = error.message;
+    page.refuse(error.message);
   }
   return undefined;
 }

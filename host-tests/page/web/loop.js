@@ -30,6 +30,13 @@ export class Loop {
     this.strolls = this.stands = false;
   }
 
+  /** Puts the stylus to a place of the room, unless it is near, in sizes of the body; contact begins anew there. */
+  put(place, near) {
+    if (this.room.place(this.place).distanceTo(place) <= near) return;
+    this.place = this.room.unplace(place);
+    this.device.restart(this.place);
+  }
+
   /** The hand goes where the probe was, by a table of places. */
   follow(table) {
     this.table = Object.assign(table, { at: 0, began: this.clock });

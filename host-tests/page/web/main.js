@@ -5,7 +5,7 @@ import { Page } from "page";
 import { openFile, openRecording } from "files";
 import { Script } from "script";
 import { toggle } from "live";
-import { whenChosen } from "choices";
+import { number, whenChosen } from "choices";
 import { verify } from "proof";
 import { explain } from "why";
 
@@ -16,6 +16,8 @@ function wire() {
   for (const { name, title } of given.bodies) by("body").add(new Option(title, name));
   by("body").addEventListener("change", ({ target: { value } }) => page.take(page.named(value)));
   whenChosen(() => page.choose());
+  by("height").addEventListener("input", () => page.pointer.holdAt(number("height") / 100));
+  by("refusal").addEventListener("click", () => page.refuse(null));
   by("hand").addEventListener("change", () => page.pointer.moveIn(by("hand").value, page.loop.place));
   document
     .querySelectorAll("[role=tab]")

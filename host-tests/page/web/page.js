@@ -26,7 +26,10 @@ export class Page {
     this.room = new Room(by("scene"));
     this.marks = new Marks(this.room);
     this.errors = new Errors(by("errors"));
-    this.pointer = new Pointer(this.room, { touched: () => this.loop.taken() });
+    this.pointer = new Pointer(this.room, {
+      touched: () => this.loop.taken(),
+      put: (place, far) => this.loop.put(place, far),
+    });
     this.loop = new Loop(this.room, this.pointer);
     this.player = new Player();
     this.modes = new Modes();
@@ -63,7 +66,7 @@ export class Page {
     this.choose();
     this.loop.begin(device);
     if (!parts && !by("body").querySelector(`option[value="${CSS.escape(name)}"]`)) {
-      by("body").add(new Option(title, name));
+      by("body").add(new Option(`${title} (yours)`, name));
       this.opened.set(name, bytes);
     }
     by("body").value = parts ? "" : name;
@@ -177,6 +180,8 @@ export class Page {
     marks.show(view, withRegion);
     show(view, felt);
     this.held.show(body.device);
+    by("height").value = Math.round(100 * this.pointer.height);
+    by("height").nextElementSibling.textContent = `${(1e3 * this.pointer.height * this.room.size).toFixed(1)} mm`;
     if (this.panel === "feel") this.errors.draw();
     if (Math.floor(this.last / TOLD_EVERY) === this.told) return;
     this.told = Math.floor(this.last / TOLD_EVERY);

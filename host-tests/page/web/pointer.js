@@ -9,20 +9,25 @@ const HOVER = 0.1,
   LOWEST = -0.3,
   HIGHEST = 0.8,
   STEP = 0.02;
+/** Farther from where a finger is put down, in sizes of the body, the stylus does not go through the air: it is put there. */
+const FAR = 0.25;
 /** Seconds in which the stylus has gone two thirds of the way. */
 const EASE = 0.07;
 
 export class Pointer {
-  constructor(room, { touched }) {
-    Object.assign(this, { room, touched });
+  constructor(room, { touched, put }) {
+    Object.assign(this, { room, touched, put });
     this.ray = new Raycaster();
     this.at = new Vector2();
     this.mode = "surface";
     this.begin();
     const { canvas } = room;
-    // Two fingers turn the view, as the right button does.
-    this.fingers = new Set();
-    canvas.addEventListener("pointermove", (event) => event.buttons & 2 || this.fingers.size > 1 || this.move(event));
+    // Two fingers turn the view, as the right button does, and zoom by how far apart they are. Where each is, px.
+    this.fingers = new Map();
+    canvas.addEventListener("pointermove", (event) => {
+      if (this.fingers.size > 1) this.pinch(event);
+      else if (!(event.buttons & 2)) this.move(event);
+    });
     canvas.addEventListener("pointerdown", (event) => this.down(event));
     for (const name of ["pointerup", "pointercancel"]) canvas.addEventListener(name, (event) => this.up(event));
     canvas.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
@@ -48,12 +53,37 @@ export class Pointer {
   }
 
   down(event) {
-    if (event.pointerType === "touch") this.fingers.add(event.pointerId);
+    const isFinger = event.pointerType === "touch";
+    if (isFinger) this.fingers.set(event.pointerId, [event.clientX, event.clientY]);
     if (this.fingers.size > 1) this.pressed = false;
     if (event.button !== 0 || this.fingers.size > 1) return;
     this.room.canvas.focus();
     this.move(event);
+    if (isFinger && this.foot) this.put(this.over(this.height), FAR);
     this.pressed = this.mode === "surface";
+  }
+
+  /** At a height over the foot, in the room. */
+  over(height) {
+    return this.foot.point.clone().addScaledVector(this.foot.normal, height);
+  }
+
+  pinch({ pointerId, clientX, clientY }) {
+    const apart = () => {
+      const [a, b] = [...this.fingers.values()];
+      return Math.hypot(a[0] - b[0], a[1] - b[1]);
+    };
+    if (!this.fingers.has(pointerId)) return;
+    const before = apart();
+    this.fingers.set(pointerId, [clientX, clientY]);
+    const after = apart();
+    if (before > 0 && after > 0) this.zoom(before / after);
+  }
+
+  /** So many times as far from the body. */
+  zoom(factor) {
+    const { camera, orbit } = this.room;
+    camera.position.sub(orbit.target).multiplyScalar(factor).clampLength(0.6, 8).add(orbit.target);
   }
 
   up(event) {
@@ -64,9 +94,7 @@ export class Pointer {
   wheel(event) {
     event.preventDefault();
     if (event.shiftKey || event.ctrlKey) {
-      const factor = Math.exp((event.deltaY || event.deltaX) * 0.001);
-      const { camera, orbit } = this.room;
-      camera.position.sub(orbit.target).multiplyScalar(factor).clampLength(0.6, 8).add(orbit.target);
+      this.zoom(Math.exp((event.deltaY || event.deltaX) * 0.001));
       return;
     }
     this.raise(-Math.sign(event.deltaY) * STEP);
@@ -81,6 +109,13 @@ export class Pointer {
       this.height = Math.min(Math.max(this.height + by, LOWEST), HIGHEST);
       this.aim();
     }
+    this.touched();
+  }
+
+  /** Holds the stylus at a height over the surface, in sizes of the body. */
+  holdAt(height) {
+    this.height = height;
+    this.held = null;
     this.touched();
   }
 
@@ -144,7 +179,7 @@ export class Pointer {
     let goal = this.goal;
     if (this.foot) {
       const height = this.pressed ? Math.min(this.height, 0) - PRESS : this.height;
-      goal = this.foot.point.clone().addScaledVector(this.foot.normal, height);
+      goal = this.over(height);
     }
     if (!goal) return from;
     const share = 1 - Math.exp(-seconds / EASE);

@@ -14,7 +14,7 @@ const HOVERS: &str =
 const PRESSED: &str = "palpate.state().contact === 2 && palpate.state().gap < -1e-3";
 
 #[test]
-fn a_finger_presses_where_it_is_and_two_turn_the_view() -> anyhow::Result<()> {
+fn a_finger_presses_where_it_is_and_two_turn_the_view_and_zoom() -> anyhow::Result<()> {
     let page = Page::open()?;
     fingers(&page, DispatchTouchEventTypeOption::TouchStart, &[OVER])?;
     page.comes_to(PRESSED)?;
@@ -43,6 +43,16 @@ fn a_finger_presses_where_it_is_and_two_turn_the_view() -> anyhow::Result<()> {
     let moved = place(&page)?.iter().zip(&stylus).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     // A finger's way is 1 cm on the body.
     ensure!(moved < 5e-4, "the stylus went along: {moved} m");
+    // From 80 px apart to 160.
+    fingers(&page, DispatchTouchEventTypeOption::TouchStart, &[OVER, second])?;
+    for step in 1..=4 {
+        let apart = [OVER[0] + 80.0 + 20.0 * f64::from(step), OVER[1]];
+        fingers(&page, DispatchTouchEventTypeOption::TouchMove, &[OVER, apart])?;
+    }
+    fingers(&page, DispatchTouchEventTypeOption::TouchEnd, &[])?;
+    page.ask("palpate.drawn(10)")?;
+    let near = page.number("Math.hypot(...palpate.state().looksFrom)")?;
+    ensure!((near / now - 0.5).abs() < 0.05, "a pinch apart: {now} to {near}");
     ensure!(page.errors().is_empty(), "on the console: {:?}", page.errors());
     Ok(())
 }
