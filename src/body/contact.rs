@@ -64,8 +64,10 @@ impl<D: Displacement> Body<'_, D> {
     fn update_contact_on_face(&self, face: &Face, state: &mut BodyWitness, probe: Vec3, normal: Vec3, step: &BodyStep) {
         let away = probe - state.witness.surface.point;
         let gap = away.dot(normal);
-        // In front contact does not start: the usual case, without the questions of the other.
-        if gap >= 0.0 {
+        // In front contact does not start: the usual case, without the questions of the other. Nor is a gap that is no
+        // number behind.
+        let is_behind = gap < 0.0;
+        if !is_behind {
             if gap < f32::INFINITY {
                 (state.normal, state.gap) = (normal, gap);
                 state.contact = if state.is_audited { Contact::InFront } else { Contact::Behind };
