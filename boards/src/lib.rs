@@ -113,7 +113,7 @@ pub use calibrations::Calibrations;
 pub use chopper::{Chopped, Chopper, ChopperSettings};
 pub use clock_check::{ClockCheck, ClocksDisagree};
 pub use currents::{CurrentFault, CurrentLimits, CurrentWatch, CurrentWatched, PhaseCurrents};
-pub use delay::{Counter, CycleDelay, cycles};
+pub use delay::{Counter, CycleDelay};
 pub use drives::{Breakable, Drives, ReadBack, Switched};
 pub use feels::Feels;
 pub use hold::{Hold, Verdict};

@@ -3,7 +3,7 @@
 use embedded_hal::delay::DelayNs;
 use palpate::device::Counts;
 use palpate_bench::sensors::{BadFrame, Sensors};
-use palpate_bench::{Counter, CycleDelay, cycles};
+use palpate_bench::{Counter, CycleDelay};
 use palpate_sim::magnetic::table;
 use std::cell::Cell;
 use std::rc::Rc;
@@ -76,34 +76,40 @@ fn above_10_khz_a_tick_reads_one_sensor_and_all_counts_are_of_one_moment() {
     assert!((100..103).contains(&disturbed));
 }
 
+/// A counter that stands still, and how often it was looked at.
+#[derive(Default)]
+struct Still(Cell<u32>);
+
+impl Counter for &Still {
+    fn now(&self) -> u32 {
+        self.0.set(self.0.get() + 1);
+        7
+    }
+}
+
 #[test]
 fn a_delay_is_never_short_by_a_cycle() {
     for frequency in [150_000_000_u32, 170_000_000, 600_000_000, 8_000_000] {
+        let still = Still::default();
+        let delay = CycleDelay::new(&still, frequency);
         for nanoseconds in [1_u32, 50, 100, 350, 351, 1_000, 10_000_000, u32::MAX] {
-            // The last full count before the end, and the one that may be over already: both lie beyond it.
-            let counts = u64::from(cycles(nanoseconds, frequency));
-            let exact = u64::from(nanoseconds) * u64::from(frequency);
-            assert!((counts - 1) * 1_000_000_000 >= exact, "{nanoseconds} ns at {frequency} Hz: {counts}");
-            assert!((counts - 2) * 1_000_000_000 < exact, "{nanoseconds} ns at {frequency} Hz: {counts}");
+            let exact = f64::from(nanoseconds) * 1e-9 * f64::from(frequency);
+            let counts = f64::from(delay.counts(nanoseconds));
+            // The first may be over as soon as it is read.
+            let over = counts - 1.0 - exact;
+            let longest = 1.0 + f64::from(nanoseconds) * 4e-9;
+            assert!((0.0..=longest).contains(&over), "{nanoseconds} ns at {frequency} Hz: {counts}");
         }
     }
 }
 
 #[test]
 fn a_delay_ends_though_its_counter_stands_still() {
-    struct Still(Rc<Cell<u32>>);
-
-    impl Counter for Still {
-        fn now(&self) -> u32 {
-            self.0.set(self.0.get() + 1);
-            7
-        }
-    }
-
-    let looks = Rc::new(Cell::new(0));
-    CycleDelay::new(Still(Rc::clone(&looks)), 150_000_000).delay_ns(350);
+    let still = Still::default();
+    let mut delay = CycleDelay::new(&still, 150_000_000);
+    delay.delay_ns(350);
     // One to begin with, and one for each count.
-    assert_eq!(looks.get(), 1 + cycles(350, 150_000_000));
+    assert_eq!(still.0.get(), 1 + delay.counts(350));
 }
 
 #[test]
