@@ -36,7 +36,7 @@ impl<K: Kinematics<3> + Copy> Bench<'_, K> {
     /// Runs all scripts but those of free air, which are of the device alone.
     fn felt(&self, mut look: impl FnMut(&Script, &Figures, &Recording)) {
         // Two fifths of the plant's own; a long run takes more.
-        let (device, plant) = (self.device, self.plant.in_sub_steps(8));
+        let (device, plant) = (self.device, self.plant.in_sub_steps(4));
         let Recommended { settings, rendering } = self.touch;
         let body: &Body<'_> = &capped_box::BODY;
         let stage = Stage {

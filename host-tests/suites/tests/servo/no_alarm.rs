@@ -23,7 +23,7 @@ fn presses<K: Kinematics<3>>(bench: &Bench<K>, recommended: &Recommended, push: 
         // What the wall yields and what the hand does.
         let depth = push / f64::from(settings.stiffness_n_per_m) + push / hand.stiffness;
         let path = Press { point: [0.0; 3], normal: [0.0, 0.0, 1.0], depth };
-        let mut plant = Plant::new(&bench.plant, hand, Box::new(path), RATE).unwrap();
+        let mut plant = Plant::new(&bench.plant.in_sub_steps(4), hand, Box::new(path), RATE).unwrap();
         let mut state = servo.start();
         let mut seen_at = None;
         for tick in 0..2_800 {

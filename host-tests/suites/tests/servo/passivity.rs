@@ -42,7 +42,7 @@ fn touch(kind: Rendering, stiffness: f32, damping: f32, viscous: f64, control: P
     let level = |u: f64, v: f64| ([0.1 * (u - 0.5), 0.1 * (v - 0.5), 0.0], [0.0, 0.0, 1.0]);
     let touching = TouchingSettings { duration: 10.0, touches: 15, ..TouchingSettings::default() };
     let path = TouchingPath::new(level, touching, seed).unwrap();
-    let mut device = PlantSettings::wooden_haptics_2016();
+    let mut device = PlantSettings::wooden_haptics_2016().in_sub_steps(4);
     for joint in &mut device.joints {
         joint.viscous_friction += viscous;
     }

@@ -57,7 +57,7 @@ fn length(vector: Vector) -> f64 {
 
 /// A plant with the motors of some joints turned round. Eight steps a tick: knocks take milliseconds.
 fn turned(plant: &PlantSettings, wrong: &[bool; 3]) -> PlantSettings {
-    let mut plant = plant.in_sub_steps(8);
+    let mut plant = plant.in_sub_steps(4);
     for (joint, wrong) in plant.joints.iter_mut().zip(wrong) {
         if *wrong {
             let way = &mut joint.motor_direction;
@@ -177,7 +177,7 @@ fn as_recommended<K: Kinematics<3>>(bench: &Bench<K>, Recommended { settings, re
     let servo =
         Servo::protected(bench.device, &WALL, bench.protection, Config { settings, rendering, ..Config::DEFAULT });
     let path = Box::new(Approaches { speed: 0.1 });
-    let mut plant = Plant::new(&bench.plant, HandSettings::default(), path, RATE).unwrap();
+    let mut plant = Plant::new(&bench.plant.in_sub_steps(4), HandSettings::default(), path, RATE).unwrap();
     let mut state = servo.start();
     let (mut most, mut carried) = (0.0_f32, [false; 2]);
     for _ in 0..(3.0 * APPROACH * RATE) as usize {

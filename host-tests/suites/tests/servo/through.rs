@@ -40,7 +40,7 @@ fn a_hand_that_goes_through_a_thin_plate_is_named_within_ten_milliseconds() {
     let settings =
         Settings { stiffness_n_per_m: 1_000.0, max_force_n: 5.0, body_origin_m: vec3(-0.03, -0.02, 0.02), ..SETTINGS };
     let servo = Servo::new(&WOODEN_HAPTICS_2016, &body, Config { settings, ..Config::DEFAULT });
-    let device = PlantSettings::wooden_haptics_2016();
+    let device = PlantSettings::wooden_haptics_2016().in_sub_steps(4);
     let path = Through { top: [0.0, 0.0, 0.022], depth: 0.046 };
     let mut plant = Plant::new(&device, HandSettings::default(), Box::new(path), RATE).unwrap();
     let mut state = servo.start();

@@ -93,7 +93,7 @@ fn press<S: Surface<Witness = PatchWitness>, K: Kinematics<3>>(
     let origin = settings.body_origin_m;
     let path = Press { point: wide(witness.surface.point + origin), normal: wide(normal), depth: aim };
     // Two fifths of the plant's own; a long run takes more.
-    let device = bench.plant.in_sub_steps(8);
+    let device = bench.plant.in_sub_steps(4);
     let mut plant = Plant::new(&device, HandSettings::default(), Box::new(path), RATE).unwrap();
     let mut state = servo.start();
     let (mut lowest, mut highest) = ([i32::MAX; 3], [i32::MIN; 3]);
