@@ -23,7 +23,7 @@ class Bench:
 
     BOARD: type
     NAME: str
-    A_WHILE, LONG = A_WHILE, 60_000_000
+    A_WHILE, LONG = A_WHILE, 12_000_000
     # The phase while it is driven, and whether a light says of a stop.
     DRIVING, HAS_LIGHT = telemetry.RUNNING, True
 
