@@ -59,8 +59,7 @@ impl Importer {
         without_outer_cargo(&mut cargo);
         cargo.current_dir(&repository).args(["build", "--quiet", "--profile", "apart", "--locked"]);
         cargo.args(["--package", "palpate-cad", "--target-dir", "target"]);
-        let what =
-            if path.exists() { "building the importer" } else { "building the importer, once, about two minutes" };
+        let what = if path.exists() { "building the importer" } else { "building the importer, once, about a minute" };
         progress.during(what, || output(&mut cargo))?;
         Ok(Self { path })
     }

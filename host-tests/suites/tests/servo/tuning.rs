@@ -36,7 +36,8 @@ fn config(rendering: Rendering, tuning: Tuning) -> Config<3> {
 }
 
 fn plant(path: impl HandPath + 'static) -> Plant {
-    Plant::new(&PlantSettings::wooden_haptics_2016().in_sub_steps(4), HandSettings::default(), Box::new(path), RATE).unwrap()
+    Plant::new(&PlantSettings::wooden_haptics_2016().in_sub_steps(4), HandSettings::default(), Box::new(path), RATE)
+        .unwrap()
 }
 
 /// Comes from the front, presses continuously, now more, now less, and slides.
