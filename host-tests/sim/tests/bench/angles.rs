@@ -6,7 +6,6 @@ use palpate_bench::sensors::{BadFrame, Sensors};
 use palpate_bench::{Counter, CycleDelay};
 use palpate_sim::magnetic::table;
 use std::cell::Cell;
-use std::rc::Rc;
 
 /// The data sheet's minimum times, nanoseconds: written here once more, from its table.
 const HIGH: f64 = 350.0;
