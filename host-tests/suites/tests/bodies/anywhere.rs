@@ -121,7 +121,7 @@ pub fn wavy(seed: u64, heaviest: f64) -> String {
 
 #[test]
 fn single_queries_around_open_wavy_patches_are_right_near_and_far() {
-    let count = from_environment("PALPATE_PROBES", 5_000);
+    let count = from_environment("PALPATE_PROBES", 2_000);
     let query = |seed: u64| {
         let model = Model::parse(&wavy(seed, 1.0), "wavy").unwrap_or_else(|error| panic!("{error}"));
         wrong(&model, "wavy", count)

@@ -55,7 +55,7 @@ fn places<'a>(body: &'a Body<'_>) -> impl Iterator<Item = Over> + 'a {
 
 /// Every n-th of a body with many borders, n odd: half of the probes come in the plane of the border.
 fn some_of<T>(all: Vec<T>) -> Vec<T> {
-    let step = all.len().div_ceil(from_environment("PALPATE_PROBES", 200) as usize) | 1;
+    let step = all.len().div_ceil(from_environment("PALPATE_PROBES", 100) as usize) | 1;
     all.into_iter().step_by(step).collect()
 }
 
