@@ -111,7 +111,7 @@ impl Arm {
     }
 
     /// Coriolis and centrifugal torques `Ṁ q̇ − ½ ∂(q̇ᵀ M q̇)/∂q`, N·m, on the left of the equation of motion.
-    #[inline]
+    #[inline(always)]
     pub fn velocity_torques(&self, [_, b, c]: Vector, [rate_a, rate_b, rate_c]: Vector) -> Vector {
         let first = self.first.length;
         let about_axis = self.first.mass * self.first.centre * self.first.centre + self.first.inertia;

@@ -81,6 +81,7 @@ impl Mechanism for Arm {
         Self::mass_matrix(self, angles)
     }
 
+    #[inline(always)]
     fn velocity_torques(&self, angles: Vector, rates: Vector) -> Vector {
         Self::velocity_torques(self, angles, rates)
     }
