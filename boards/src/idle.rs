@@ -118,7 +118,7 @@ impl<'a> Idle<'a> {
         }
     }
 
-    /// Reports the loop's rate (Hz) and its maximum force (N).
+    /// Reports the loop's rate (Hz) and its maximum force (N; 0 of a knob, which has a torque).
     #[must_use]
     pub const fn saying(mut self, rate: f32, max_force: f32) -> Self {
         (self.hello.rate, self.hello.max_force) = (rate, max_force);

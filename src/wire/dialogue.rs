@@ -165,7 +165,7 @@ pub struct Hello {
     pub protocol: u16,
     /// Servo rate, Hz.
     pub rate: f32,
-    /// Maximum force of the device's settings, N.
+    /// Maximum force of the device's settings, N; 0 of a knob, which has a torque.
     pub max_force: f32,
     /// Bytes of a body that can be uploaded; 0 where none can.
     pub room: u32,

@@ -44,9 +44,8 @@ fn main() -> ! {
         is_borne
     });
     free(|section| HANDED_OVER.borrow(section).set(Some((feel, producer))));
-    let mut idle = Idle::new(&MAILBOX, records, Heartbeat::default())
-        .saying(SETTINGS.rate_hz, SETTINGS.max_force_n)
-        .keeping_feels(&kept);
+    let mut idle =
+        Idle::new(&MAILBOX, records, Heartbeat::default()).saying(SETTINGS.rate_hz, 0.0).keeping_feels(&kept);
     let mut port = Uart::new(&BOARD);
     BOARD.start_timer(SETTINGS.rate_hz);
     loop {

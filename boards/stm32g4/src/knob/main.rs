@@ -138,8 +138,7 @@ fn main() -> ! {
         core.NVIC.set_priority(Interrupt::TIM7, 0);
         NVIC::unmask(Interrupt::TIM7);
     }
-    let mut idle =
-        Idle::new(&SHARED.mailbox, records, heartbeat(SETTINGS.rate_hz)).saying(SETTINGS.rate_hz, SETTINGS.max_force_n);
+    let mut idle = Idle::new(&SHARED.mailbox, records, heartbeat(SETTINGS.rate_hz)).saying(SETTINGS.rate_hz, 0.0);
     if let Some(flash) = &kept {
         idle = idle.keeping_feels(flash);
     }

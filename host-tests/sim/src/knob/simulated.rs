@@ -132,7 +132,7 @@ impl SimulatedKnob {
         {
             kept.refused();
         }
-        board.idle = board.idle.saying(SETTINGS.rate_hz, SETTINGS.max_force_n).keeping_feels(Box::leak(Box::new(kept)));
+        board.idle = board.idle.saying(SETTINGS.rate_hz, 0.0).keeping_feels(Box::leak(Box::new(kept)));
         Self { board, knob: knob.clone(), ticks: 0, asked: false, began: Instant::now(), is_paced: false }
     }
 

@@ -275,7 +275,12 @@ impl<'a, L: Line> Console<'a, L> {
             (flash, kept) => format!(", and {flash} bytes of flash, which keep the body with the CRC {kept:08x}"),
         };
         let [rate, force] = [hello.rate, hello.max_force];
-        format!("a device of {rate} Hz, {force} N at most, {memory}{flash}; protocol {}", hello.protocol)
+        let device = if force > 0.0 {
+            format!("a device of {rate} Hz, {force} N at most, {memory}{flash}")
+        } else {
+            format!("a knob of {rate} Hz; `dial` shows its angle and torque")
+        };
+        format!("{device}; protocol {}", hello.protocol)
     }
 
     fn begin_anew(&mut self, output: &mut dyn Write) -> anyhow::Result<()> {

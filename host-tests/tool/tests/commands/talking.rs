@@ -71,6 +71,7 @@ fn a_line_that_is_refused_or_not_understood_ends_a_file_with_a_sentence() {
 fn a_knob_says_what_became_of_its_feel() {
     let arguments = ["--device", "knob", "--host"];
     let (status, said, complained) = talk(&arguments, "free\nwait 0.2\nkeep-feel\nforget-feel\n");
+    assert!(said.starts_with("a knob of 4000 Hz;"), "{said}");
     let outcome = "done\nkept: the knob starts with this feel from the next reset on\n\
                    cleared: it starts with its table from the next reset on\n";
     assert_eq!((status, said.contains(outcome)), (Some(0), true), "{said}{complained}");
