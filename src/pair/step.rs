@@ -5,10 +5,10 @@
 //! d_B]` and `s = −gᵀd`, the difference `ΔR = f − h` is a quadratic plus a remainder, so that theory §12's lemma holds
 //! as it stands (§14): `R (‖ΔR(t d)‖ − R) ≤ −s t + …`. A solid's `h` is linear, and has no remainder.
 
-use super::quadratic::{Quadratic, SIZE, Step};
+use super::quadratic::{Bordered, Quadratic, SIZE, Step};
 use super::tool::Region;
 use crate::body::Body;
-use crate::math::{Vec3, saturate, sqrt, sqrt_from_above};
+use crate::math::{Vec3, saturate, sqrt, sqrt_from_above, vec3};
 use crate::patch::{ALL_KINDS, CurvedPoint, KindSet, Patch as _, SecondDerivatives, SplinePatch, SurfacePoint};
 use crate::track::Placement;
 
@@ -114,19 +114,26 @@ impl Pair {
             }
         }
         let squared = joint.difference.length_squared();
-        let Some((step, slope)) = joint.plan_moving(self, body, region) else { return Moved::AtRest };
+        let plan = match region {
+            Region::Solid { .. } => joint.plan(self, body, region, |shift| joint.bordered(shift)),
+            Region::Surface(_) => joint.plan(self, body, region, |shift| joint.full(shift)),
+        };
+        let Some((step, slope)) = plan else { return Moved::AtRest };
         let [u, v, r, s, _] = step;
         let moved = |at: [f32; 2], w: [f32; 2]| [at[0] + w[0], at[1] + w[1]];
-        let a = Foot::on(body, self.a.face, moved(self.a.parameters, [u, v]));
-        let next = match region {
-            // The projection is at least as near as the step's own end.
-            Region::Solid { .. } => Self::facing(a, region, placement),
-            Region::Surface(core) => {
-                Self { a, b: Foot::on(core, self.b.face, moved(self.b.parameters, [r, s])), halvings: 0 }
-            }
+        let [u, v] = moved(self.a.parameters, [u, v]).map(|parameter| saturate(parameter, 0.0, 1.0));
+        let curved = patch_of(body, self.a.face).evaluate_apart::<KindSet<ALL_KINDS>>([u, v]);
+        let core = match region {
+            Region::Solid { .. } => None,
+            Region::Surface(core) => Some(Foot::on(core, self.b.face, moved(self.b.parameters, [r, s]))),
+        };
+        // The projection on a solid is at least as near as the step's own end.
+        let b = match &core {
+            Some(foot) => foot.point(),
+            None => region.nearest(placement.point_to_b(curved.surface.point)).0,
         };
         let size = body.size() + placement.origin.abs().max_element();
-        let rise = next.difference(placement).length_squared() - squared;
+        let rise = (curved.surface.point - placement.point_to_a(b)).length_squared() - squared;
         // Near contact the points' own rounding is the distance.
         let rounding = ROUNDING * size;
         let is_no_rise = rise <= rounding * (sqrt(squared) + rounding);
@@ -134,99 +141,138 @@ impl Pair {
             self.halvings = if self.halvings < MAX_HALVINGS { self.halvings + 1 } else { MAX_HALVINGS };
             return Moved::Rejected;
         }
-        *self = next;
+        (self.a.parameters, self.a.curved, self.halvings) = ([u, v], curved, 0);
+        match core {
+            Some(foot) => self.b = foot,
+            None => self.b.curved.surface.point = b,
+        }
         let resolved = RESOLUTION * body.size();
         if slope <= resolved * (sqrt(squared) + resolved) { Moved::AtRest } else { Moved::Nearer }
     }
 }
 
-/// The start of a step: `ΔR` with its derivatives in all variables, in the body's frame.
-struct Joint {
+/// The start of a step: `ΔR` with its derivatives in all variables; in the frame of a solid, otherwise in the body's.
+struct Joint<'a> {
+    placement: &'a Placement,
     difference: Vec3,
-    columns: [Vec3; SIZE],
-    /// Second derivatives of `f`, and of `−h`.
-    second: [SecondDerivatives; 2],
+    /// Of the body's parameters, and of a core's that is a body.
+    columns: [Vec3; 4],
+    /// Second derivatives of `f`, in the body's frame, and of `−h`.
+    second: (&'a SecondDerivatives, Option<SecondDerivatives>),
+    /// `ΔR · D²f`.
+    bend: [f32; 3],
     lower: Step,
     upper: Step,
 }
 
-impl Joint {
-    fn new(pair: &Pair, body: &Body, region: &Region, placement: &Placement) -> Self {
+impl<'a> Joint<'a> {
+    fn new(pair: &'a Pair, body: &Body, region: &Region, placement: &'a Placement) -> Self {
         let ([u, v], f) = (pair.a.parameters, &pair.a.curved);
+        let difference = pair.difference(placement);
+        let [f_u, f_v] = [f.surface.tangent_u, f.surface.tangent_v];
         let mut joint = Self {
-            difference: pair.difference(placement),
-            columns: [f.surface.tangent_u, f.surface.tangent_v, Vec3::ZERO, Vec3::ZERO, Vec3::ZERO],
-            second: [f.second, SecondDerivatives::NONE],
+            placement,
+            difference,
+            columns: [f_u, f_v, Vec3::ZERO, Vec3::ZERO],
+            bend: f.second.along(difference),
+            second: (&f.second, None),
             lower: [-u, -v, 0.0, 0.0, 0.0],
             upper: [1.0 - u, 1.0 - v, 0.0, 0.0, 0.0],
         };
+        // Along a vanishing tangent nothing moves.
+        let shortest = NO_TANGENT * body.size();
+        let moves = |tangent: Vec3| tangent.length_squared() > shortest * shortest;
         match region {
             Region::Solid { middle, half } => {
-                let point = (pair.b.point() - *middle).to_array();
-                for ((axis, at), half) in point.into_iter().enumerate().zip(half.to_array()) {
-                    joint.columns[2 + axis] = -placement.axes[axis];
-                    (joint.lower[2 + axis], joint.upper[2 + axis]) = (-half - at, half - at);
+                let [low, high] = [*middle - *half - pair.b.point(), *middle + *half - pair.b.point()];
+                joint.lower = [-u, -v, low.x, low.y, low.z];
+                joint.upper = [1.0 - u, 1.0 - v, high.x, high.y, high.z];
+                for i in 2..SIZE {
+                    if joint.upper[i] <= joint.lower[i] {
+                        (joint.lower[i], joint.upper[i]) = (0.0, 0.0);
+                    }
                 }
+                joint.difference = placement.direction_to_b(difference);
+                (joint.columns[0], joint.columns[1]) = (placement.direction_to_b(f_u), placement.direction_to_b(f_v));
             }
             Region::Surface(_) => {
                 let ([r, s], CurvedPoint { surface, second }) = (pair.b.parameters, &pair.b.curved);
                 let turned = |direction| -placement.direction_to_a(direction);
                 (joint.columns[2], joint.columns[3]) = (turned(surface.tangent_u), turned(surface.tangent_v));
                 let SecondDerivatives { half_uu, uv, half_vv } = *second;
-                joint.second[1] =
-                    SecondDerivatives { half_uu: turned(half_uu), uv: turned(uv), half_vv: turned(half_vv) };
+                let second = SecondDerivatives { half_uu: turned(half_uu), uv: turned(uv), half_vv: turned(half_vv) };
+                joint.second.1 = Some(second);
                 (joint.lower[2], joint.upper[2]) = (-r, 1.0 - r);
                 (joint.lower[3], joint.upper[3]) = (-s, 1.0 - s);
+                for i in 2..4 {
+                    if !moves(joint.columns[i]) {
+                        (joint.lower[i], joint.upper[i]) = (0.0, 0.0);
+                    }
+                }
             }
         }
-        // Along a vanishing tangent nothing moves; a solid's axes have length 1.
-        let shortest = NO_TANGENT * body.size();
-        for i in 0..SIZE {
-            let still = joint.columns[i].length_squared() <= shortest * shortest;
-            let no_range = joint.upper[i] <= joint.lower[i];
-            if still || no_range {
+        for i in 0..2 {
+            if !moves(joint.columns[i]) {
                 (joint.lower[i], joint.upper[i]) = (0.0, 0.0);
             }
         }
         joint
     }
 
-    /// The plan in those variables that can move: a corner of a core has none of its own, a segment one.
-    fn plan_moving(&self, pair: &Pair, body: &Body, region: &Region) -> Option<(Step, f32)> {
-        if let Region::Surface(_) = region {
-            return self.plan([0, 1, 2, 3], pair, body, region);
-        }
-        let [x, y, z] = [2, 3, 4].map(|i| self.upper[i] > self.lower[i]);
-        match (x, y, z) {
-            (false, false, false) => self.plan([0, 1], pair, body, region),
-            (true, false, false) => self.plan([0, 1, 2], pair, body, region),
-            (false, true, false) => self.plan([0, 1, 3], pair, body, region),
-            (false, false, true) => self.plan([0, 1, 4], pair, body, region),
-            _ => self.plan([0, 1, 2, 3, 4], pair, body, region),
-        }
+    /// The minimiser of the model `H + σ J`, or of `J` alone, and its slope; of a solid.
+    fn bordered(&self, shift: Option<f32>) -> Option<(Step, f32)> {
+        let ([t_u, t_v, ..], away) = (self.columns, -self.difference);
+        let metric = [t_u.length_squared(), t_u.dot(t_v), t_v.length_squared()];
+        let gradient = [t_u.dot(self.difference), t_v.dot(self.difference), away.x, away.y, away.z];
+        let hessian = match shift {
+            Some(shift) => Bordered {
+                block: core::array::from_fn(|i| metric[i] + self.bend[i] + shift * metric[i]),
+                tangents: [t_u, t_v],
+                stiff: [1.0 + shift, if shift > 0.0 { 1.0 / (1.0 + shift) } else { 1.0 }],
+            },
+            None => Bordered { block: metric, tangents: [Vec3::ZERO; 2], stiff: [1.0; 2] },
+        };
+        let step = Quadratic { gradient, hessian, lower: self.lower, upper: self.upper }.minimiser()?;
+        Some((step, -(0..SIZE).fold(0.0, |sum, i| sum + gradient[i] * step[i])))
     }
 
-    /// The step with the largest promise, and its slope; `None` if no step promises anything. In the variables `of`.
-    fn plan<const N: usize>(&self, of: [usize; N], pair: &Pair, body: &Body, region: &Region) -> Option<(Step, f32)> {
-        let columns = of.map(|i| self.columns[i]);
-        let (lower, upper) = (of.map(|i| self.lower[i]), of.map(|i| self.upper[i]));
+    /// The same of a core that is a body.
+    fn full(&self, shift: Option<f32>) -> Option<(Step, f32)> {
+        let columns = &self.columns;
         let gradient = columns.map(|column| column.dot(self.difference));
-        let metric: [[f32; N]; N] = core::array::from_fn(|i| {
-            core::array::from_fn(|k| if (i < 2) == (k < 2) { columns[i].dot(columns[k]) } else { 0.0 })
-        });
-        let minimiser = |hessian| {
-            let within = Quadratic { gradient, hessian, lower, upper }.minimiser()?;
-            let slope = -gradient.iter().zip(&within).fold(0.0, |sum, (g, d)| sum + g * d);
-            let mut step = [0.0; SIZE];
-            of.into_iter().zip(within).for_each(|(i, moved)| step[i] = moved);
-            Some((step, slope))
+        let of_core = self.second.1.map_or([0.0; 3], |second| second.along(self.difference));
+        let metric = |i: usize, k: usize| if (i < 2) == (k < 2) { columns[i].dot(columns[k]) } else { 0.0 };
+        let hessian: [[f32; 4]; 4] = match shift {
+            Some(shift) => {
+                let mut hessian = columns.map(|column| columns.map(|other| column.dot(other)));
+                for (i, [uu, uv, vv]) in [(0, self.bend), (2, of_core)] {
+                    hessian[i][i] += uu;
+                    hessian[i][i + 1] += uv;
+                    hessian[i + 1][i] += uv;
+                    hessian[i + 1][i + 1] += vv;
+                }
+                core::array::from_fn(|i| core::array::from_fn(|k| hessian[i][k] + shift * metric(i, k)))
+            }
+            None => core::array::from_fn(|i| core::array::from_fn(|k| metric(i, k))),
         };
+        let [lower, upper] = [&self.lower, &self.upper].map(|bound| core::array::from_fn(|i| bound[i]));
+        let step = Quadratic { gradient, hessian, lower, upper }.minimiser()?;
+        let slope = -(0..4).fold(0.0, |sum, i| sum + gradient[i] * step[i]);
+        Some(([step[0], step[1], step[2], step[3], 0.0], slope))
+    }
+
+    /// The step with the largest promise, and its slope; `None` if no step promises anything.
+    fn plan(
+        &self,
+        pair: &Pair,
+        body: &Body,
+        region: &Region,
+        minimiser: impl Fn(Option<f32>) -> Option<(Step, f32)>,
+    ) -> Option<(Step, f32)> {
         let mut best: Option<(Step, f32, f32)> = None;
         if pair.halvings == 0 {
-            let newton = self.newton(&columns);
             for shift in SHIFTS {
-                let shifted = core::array::from_fn(|i| core::array::from_fn(|k| newton[i][k] + shift * metric[i][k]));
-                let Some((step, slope)) = minimiser(shifted) else { continue };
+                let Some((step, slope)) = minimiser(Some(shift)) else { continue };
                 let share = self.share(&step, slope, pair, body, region);
                 if share >= 1.0 && slope > 0.0 {
                     return Some((step, slope));
@@ -235,7 +281,7 @@ impl Joint {
             }
         }
         // Always positive: the tangents span a plane, or one of them is left out.
-        let (step, slope) = minimiser(metric).unwrap_or(([0.0; SIZE], 0.0));
+        let (step, slope) = minimiser(None).unwrap_or(([0.0; SIZE], 0.0));
         let mut share = self.share(&step, slope, pair, body, region);
         if share <= 0.0 && best.is_none() {
             // Without bounds (next to a pole) the evaluation decides.
@@ -245,25 +291,21 @@ impl Joint {
         best.map(|(step, slope, share)| (step.map(|w| share * w), share * slope))
     }
 
-    /// `H`: all products of the tangents, and the second derivatives.
-    fn newton<const N: usize>(&self, columns: &[Vec3; N]) -> [[f32; N]; N] {
-        let mut hessian = columns.map(|column| columns.map(|other| column.dot(other)));
-        for (block, second) in self.second.iter().enumerate().take(N / 2) {
-            let ([uu, uv, vv], i) = (second.along(self.difference), 2 * block);
-            hessian[i][i] += uu;
-            hessian[i][i + 1] += uv;
-            hessian[i + 1][i] += uv;
-            hessian[i + 1][i + 1] += vv;
-        }
-        hessian
-    }
-
     /// The fraction of a step that is proved to lower `R ‖ΔR‖` by half of that fraction of the slope; 1 if the full
     /// step lowers it by a quarter. 0 without a proof.
     fn share(&self, step: &Step, slope: f32, pair: &Pair, body: &Body, region: &Region) -> f32 {
-        let [u, v, r, s, _] = *step;
-        let way = (0..SIZE).fold(Vec3::ZERO, |sum, i| sum + self.columns[i] * step[i]);
-        let bend = self.second[0].bend([u, v]) + self.second[1].bend([r, s]);
+        let [u, v, r, s, t] = *step;
+        let of_body = self.columns[0] * u + self.columns[1] * v;
+        let (way, bend) = match region {
+            Region::Solid { .. } => {
+                (of_body - vec3(r, s, t), self.placement.direction_to_b(self.second.0.bend([u, v])))
+            }
+            Region::Surface(_) => {
+                let way = of_body + self.columns[2] * r + self.columns[3] * s;
+                let of_core = self.second.1.map_or(Vec3::ZERO, |second| second.bend([r, s]));
+                (way, self.second.0.bend([u, v]) + of_core)
+            }
+        };
         let (mut twist, mut jumps) = remainder(&patch_of(body, pair.a.face), pair.a.parameters, [u, v]);
         if let Region::Surface(core) = region {
             let of_core = remainder(&patch_of(core, pair.b.face), pair.b.parameters, [r, s]);
