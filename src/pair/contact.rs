@@ -1,10 +1,10 @@
 //! The contacts of a tool with a body: where, in which direction, and how far.
 
-use super::step::{Foot, Pair};
+use super::step::Pair;
 use super::tool::{Tool, unit};
 use super::tracker::{Part, ToolWitness};
 use crate::body::Body;
-use crate::math::{Vec3, sqrt};
+use crate::math::{Vec3, sqrt, sqrt_from_above};
 use crate::track::Placement;
 
 /// Maximum contacts of a manifold.
@@ -44,15 +44,30 @@ impl ToolContact {
 
     /// Of a body's point and a core's, in the body's frame, if a translation of `reach_m` and a rotation of `reach_rad` can
     /// close its gap. `None` of one that the signs find on the far side of the body, or whose points coincide.
-    fn of(a: &Foot, b: Vec3, body: &Body, within: &Within) -> Option<Self> {
+    fn of(a: Vec3, b: Vec3, within: &Within, is_outside: impl FnOnce(Vec3) -> bool) -> Option<Self> {
         let arm = within.placement.direction_to_a(b);
-        let away = arm + within.placement.origin - a.point();
-        let reach = within.radius + within.reach_m + within.reach_rad * sqrt(arm.length_squared());
+        let away = arm + within.placement.origin - a;
+        let reach = within.reach_of(arm);
         let squared = away.length_squared();
-        if squared > reach * reach || a.outward(body).dot(away) <= 0.0 {
+        if squared > reach * reach || !is_outside(away) {
             return None;
         }
         Some(Self { normal: unit(away), arm, gap: sqrt(squared) - within.radius })
+    }
+
+    /// Of a part that may have waited since its last visit: of its plane, or of a border's point.
+    fn of_part(part: &Part, within: &Within) -> Option<Self> {
+        if part.is_at_rest() || part.normal == Vec3::ZERO {
+            return None;
+        }
+        let a = part.pair.a.point();
+        if part.is_border() {
+            return Self::of(a, part.pair.b.point(), within, |away| part.normal.dot(away) > 0.0);
+        }
+        let arm = within.placement.direction_to_a(part.pair.b.point());
+        let distance = part.normal.dot(arm + within.placement.origin - a);
+        let is_near = distance <= within.reach_of(arm);
+        is_near.then_some(Self { normal: part.normal, arm, gap: distance - within.radius })
     }
 }
 
@@ -64,13 +79,10 @@ struct Within<'a> {
     reach_rad: f32,
 }
 
-const fn feet(pair: &Pair) -> (&Foot, Vec3) {
-    (&pair.a, pair.b.point())
-}
-
-/// A part whose gap is not known to be out of reach.
-fn near(part: &Option<Part>) -> Option<(&Foot, Vec3)> {
-    part.as_ref().filter(|part| !part.is_at_rest()).map(|part| feet(&part.pair))
+impl Within<'_> {
+    fn reach_of(&self, arm: Vec3) -> f32 {
+        self.radius + self.reach_m + self.reach_rad * sqrt_from_above(arm.length_squared())
+    }
 }
 
 impl Manifold {
@@ -108,21 +120,35 @@ impl Manifold {
 
 impl ToolWitness {
     /// The contacts whose gap a translation of `reach_m` and a rotation of `reach_rad` can close.
-    pub fn manifold(&self, body: &Body, tool: &Tool, placement: &Placement, reach_m: f32, reach_rad: f32) -> Manifold {
+    pub fn collect(
+        &self,
+        manifold: &mut Manifold,
+        body: &Body,
+        tool: &Tool,
+        placement: &Placement,
+        [reach_m, reach_rad]: [f32; 2],
+    ) {
         let within = Within { placement, radius: tool.radius(), reach_m, reach_rad };
-        let mut manifold = Manifold::NONE;
-        let mut enter = |feet: &mut dyn Iterator<Item = (&Foot, Vec3)>| {
+        manifold.count = 0;
+        let (region, size) = (tool.region(), body.size());
+        let mut enter = |contacts: &mut dyn Iterator<Item = ToolContact>| {
             let first = usize::from(manifold.count);
-            for contact in feet.filter_map(|(a, b)| ToolContact::of(a, b, body, &within)) {
-                manifold.enter(contact, first, body.size());
-            }
+            contacts.for_each(|contact| manifold.enter(contact, first, size));
         };
-        enter(&mut core::iter::once(feet(self.pair())));
-        enter(&mut self.corners.iter().filter_map(near));
-        enter(&mut self.vertices(&tool.region(), placement));
-        enter(&mut self.borders.iter().filter_map(near));
-        enter(&mut self.edges.iter().filter_map(near));
-        enter(&mut self.rivals.iter().flatten().map(feet));
-        manifold
+        let of_pair = |pair: &Pair| {
+            ToolContact::of(pair.a.point(), pair.b.point(), &within, |away| pair.a.outward(body).dot(away) > 0.0)
+        };
+        let of_part = |part: &Option<Part>| ToolContact::of_part(part.as_ref()?, &within);
+        let pair = ToolContact::of(self.pair.a.point(), self.pair.b.point(), &within, |_| self.is_in_front);
+        enter(&mut pair.into_iter());
+        enter(&mut self.corners.iter().take(usize::from(self.count[0])).filter_map(of_part));
+        enter(
+            &mut self
+                .vertices(&region, placement)
+                .filter_map(|(a, b)| ToolContact::of(a.point(), b, &within, |away| a.outward(body).dot(away) > 0.0)),
+        );
+        enter(&mut self.borders.iter().filter_map(of_part));
+        enter(&mut self.edges.iter().take(usize::from(self.count[1])).filter_map(of_part));
+        enter(&mut self.rivals.iter().flatten().filter_map(of_pair));
     }
 }

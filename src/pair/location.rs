@@ -160,6 +160,7 @@ impl Location {
             Stage::Corner { index } => {
                 if let Some(corner) = state.corners.get_mut(usize::from(index)).and_then(Option::as_mut) {
                     corner.pair = scene.beneath(corner.pair.b);
+                    scene.note(corner);
                     return Stage::Corner { index: index + 1 };
                 }
                 Stage::Edge { index: 0, step: 0 }
@@ -216,6 +217,7 @@ impl Location {
         let a = state.pair.a;
         state.corners =
             tool.corners().map(|corner| corner.map(|b| Part::new(Pair { a, b, halvings: 0 }, b.point(), Vec3::ZERO)));
+        state.count = [state.corners.iter().flatten().count() as u8, 0];
     }
 
     /// A step of the closest pair of the body and an edge, from that of the core.
@@ -223,8 +225,8 @@ impl Location {
         let slot = usize::from(index);
         let Some((middle, half)) = tool.edges().nth(slot).filter(|_| slot < state.edges.len()) else {
             let least = scene.distance(&state.pair);
-            for part in state.corners.iter_mut().chain(&mut state.edges).flatten() {
-                part.rests_for = scene.rest(part, tool, least);
+            for part in state.parts_mut().flatten() {
+                part.rests_for = Scene::rest(part.distance, tool, least);
             }
             return Stage::Done;
         };
@@ -238,7 +240,10 @@ impl Location {
         } else {
             scene.tick_on(&edge, &mut pair, [false; 2]);
         }
-        state.edges[slot] = Some(Part::new(pair, middle, half));
+        let mut part = Part::new(pair, middle, half);
+        scene.note(&mut part);
+        state.edges[slot] = Some(part);
+        state.count[1] = index + 1;
         if step + 1 < ROUNDS + MAX_STALLS {
             Stage::Edge { index, step: step + 1 }
         } else {

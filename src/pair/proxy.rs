@@ -20,8 +20,10 @@ const SLIP: [f32; 2] = [160.0, 0.4];
 const SLIP_STEP: [f32; 2] = [0.04, 0.1e-3];
 /// Seconds over which the wrench fades once contact is given up, as a point's force does.
 const FADE_S: f32 = 0.005;
-/// Sweeps over the contacts.
+/// Maximum sweeps over the contacts.
 const SWEEPS: u8 = 10;
+/// Change of all contacts' forces in a sweep, N, after which no other follows.
+const SETTLED_N: f32 = 1.0e-4;
 /// Of the radius: contact is given up where the core is nearer to the body than the rest.
 const GIVEN_UP: f32 = 0.5;
 /// Of the jump that a tracker notices: how far the tool goes in a tick from where it was located to the hand.
@@ -186,16 +188,28 @@ impl ToolCoupling {
         // One factor for both, so that the step still lowers the spring's energy.
         let share = share_within([way, turn], self.max_step);
         (way, turn) = (way * share, turn * share);
-        let mut pressed = [0.0_f32; MAX_CONTACTS];
+        let mut pressed = [(0.0_f32, Vec3::ZERO, 0.0_f32); MAX_CONTACTS];
+        for (contact, (_, lever, inverse)) in contacts.iter().zip(&mut pressed) {
+            *lever = contact.lever();
+            *inverse = 1.0 / (soft + softer * lever.length_squared());
+        }
         for _ in 0..SWEEPS {
-            for (contact, pressed) in contacts.iter().zip(&mut pressed) {
-                let (normal, lever) = (contact.normal, contact.lever());
+            let mut most = 0.0_f32;
+            for (contact, (pressed, lever, inverse)) in contacts.iter().zip(&mut pressed) {
+                let normal = contact.normal;
                 let gap = contact.gap + normal.dot(way) + lever.dot(turn);
-                let wanted = *pressed - gap / (soft + softer * lever.length_squared());
+                let wanted = *pressed - gap * *inverse;
                 let next = if wanted > 0.0 { wanted } else { 0.0 };
                 let more = next - *pressed;
-                (way, turn) = (way + normal * (more * soft), turn + lever * (more * softer));
-                *pressed = next;
+                if more.abs() > 0.0 {
+                    (way, turn) = (way + normal * (more * soft), turn + *lever * (more * softer));
+                    *pressed = next;
+                    most = if more.abs() > most { more.abs() } else { most };
+                }
+            }
+            // One contact is solved at once.
+            if contacts.len() < 2 || most <= SETTLED_N {
+                break;
             }
         }
         let (moved, (turned, _)) = stretch(before, hand);
@@ -346,7 +360,7 @@ impl Proxy {
         };
         self.hand = *hand;
         let placement = placement_of(&self.pose).ok_or(ProxyError::Pose)?;
-        let found = body.step_tool(tool, &mut self.state, &placement, cells);
+        let found = body.step_tool_with(tool, &mut self.state, &placement, cells, true);
         (self.distance, self.evaluations) = (found.distance, found.evaluations);
         if !matches!(found.status, ToolStatus::Following | ToolStatus::AtRest) {
             return Err(ProxyError::Lost);
@@ -386,16 +400,16 @@ impl Proxy {
         hand: &BodyPose,
         cells: u16,
     ) -> Result<(), ProxyError> {
-        placement_of(hand).ok_or(ProxyError::Pose)?;
-        let placement = placement_of(&self.pose).ok_or(ProxyError::Pose)?;
-        let found = body.step_tool(tool, &mut self.state, &placement, cells);
+        let (Some(_), Some(placement)) = (placement_of(hand), placement_of(&self.pose)) else {
+            return Err(ProxyError::Pose);
+        };
+        let found = body.step_tool_with(tool, &mut self.state, &placement, cells, true);
         (self.distance, self.evaluations) = (found.distance, found.evaluations);
         let is_known = matches!(found.status, ToolStatus::Following | ToolStatus::AtRest);
         if !is_known || found.distance < -GIVEN_UP * tool.radius() {
             return Err(ProxyError::Lost);
         }
-        let [step, turn] = coupling.max_step;
-        self.manifold = self.state.manifold(body, tool, &placement, step, turn);
+        self.state.collect(&mut self.manifold, body, tool, &placement, coupling.max_step);
         self.pose = coupling.settle(&self.pose, &self.hand, hand, self.manifold.contacts());
         self.hand = *hand;
         Ok(())

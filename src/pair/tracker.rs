@@ -3,7 +3,7 @@
 use super::cells::{Cells, Visit};
 use super::common_normal;
 use super::step::{Foot, Moved, Pair};
-use super::tool::{Core, Region, Tool};
+use super::tool::{Core, Region, Tool, unit};
 use crate::body::{Body, EdgeKind};
 use crate::math::{Vec3, sqrt, sqrt_from_above};
 use crate::track::Placement;
@@ -28,8 +28,12 @@ pub(super) const TOUCHING: f32 = 1.0e-6;
 pub(super) const NEARER: f32 = 3.0e-8;
 /// Relative to the size: witness points nearer than this are those of one minimum.
 const SAME: f32 = 1.0e-3;
-/// Gap below which a part of the core is followed in every tick, metres: more than a proxy closes in one.
+/// Gap below which a part of the core is looked at in every tick, metres: more than a proxy closes in one.
 const REACH_M: f32 = 1.5e-3;
+/// Parts of the core that are visited in a tick beside a convex body.
+const VISITS: usize = 2;
+/// By how much the plane of a part that waits for its turn may be nearer than the body, metres.
+const STALE_M: f32 = 1.0e-6;
 /// Motion of the core between two ticks, relative to the body's size, above which it has jumped: locate it again.
 pub(super) const JUMP: f32 = 0.03;
 
@@ -76,8 +80,12 @@ pub struct ToolWitness {
     pub(super) edges: [Option<Part>; EDGES],
     /// The corners of the pair's face of the body, and which face it is.
     vertices: ([Foot; 4], u16),
+    /// Metres of the core's motion after which a corner of the face may be the nearest, or in contact.
+    vertices_rest_for: f32,
     /// The borders of that face.
     pub(super) borders: [Option<Part>; 4],
+    /// Corners and edges that the core has.
+    pub(super) count: [u8; 2],
     pub(super) rivals: [Option<Pair>; RIVALS],
     /// The descent from a cell of the audit.
     pub(super) explorer: Option<Pair>,
@@ -85,6 +93,8 @@ pub struct ToolWitness {
     placement: Placement,
     /// Whether the pair is that of the common normal.
     pub(super) is_inside: bool,
+    /// Whether the pair passes the sign test.
+    pub(super) is_in_front: bool,
 }
 
 /// A corner or an edge of the core, or a border of the body's face, with its closest pair.
@@ -97,6 +107,14 @@ pub(super) struct Part {
     held: [bool; 2],
     /// Metres of the core's motion after which it may be the nearest, or in contact.
     pub rests_for: f32,
+    /// Motion of the core since the last visit, metres.
+    since: f32,
+    /// Whether that ended without a switch of faces.
+    is_settled: bool,
+    /// Distance at the last visit, metres.
+    pub distance: f32,
+    /// From the body's point to the core's at the last visit, a unit vector; zero on the far side of the body.
+    pub normal: Vec3,
 }
 
 /// A body and a tool at a pose, and what has been spent on them.
@@ -133,7 +151,20 @@ impl<'a> Body<'a> {
     /// distance at rest never rises by more than rounding. The nearest of the pair, the corners, the edges and the
     /// rivals is the result.
     pub fn step_tool(&self, tool: &Tool, state: &mut ToolWitness, placement: &Placement, cells: u16) -> Closest {
+        self.step_tool_with(tool, state, placement, cells, false)
+    }
+
+    /// The same; beside a convex body with at most [`VISITS`] corners and edges in a tick, if `is_lean`.
+    pub(super) fn step_tool_with(
+        &self,
+        tool: &Tool,
+        state: &mut ToolWitness,
+        placement: &Placement,
+        cells: u16,
+        is_lean: bool,
+    ) -> Closest {
         let mut scene = Scene { body: self, region: tool.region(), placement, evaluations: 0 };
+        let is_lean = is_lean && self.is_convex();
         let has_jumped = state.has_jumped(placement, self.size());
         let motion = core_motion(&state.placement, placement, tool.extents());
         state.placement = *placement;
@@ -149,24 +180,22 @@ impl<'a> Body<'a> {
             }
         }
         let region = scene.region;
-        let moved = scene.follow(&region, &mut state.pair);
-        let least = scene.distance(&state.pair);
-        for part in state.corners.iter_mut().chain(&mut state.edges).chain(&mut state.borders).flatten() {
-            scene.tick_part(part, tool, least, motion);
-        }
+        let (moved, _) = scene.follow(&region, &mut state.pair);
+        scene.tick_parts(state, tool, motion, is_lean);
         for rival in state.rivals.iter_mut().flatten() {
             scene.tick(rival);
         }
         if !self.is_convex() {
             scene.audit(state, cells);
         }
-        scene.exchange(state);
+        scene.exchange(state, tool, motion);
         let distance = scene.distance(&state.pair);
+        state.is_in_front = scene.is_global(&state.pair);
         let status = if has_jumped {
             ToolStatus::Jumped
         } else if distance <= TOUCHING * self.size() {
             ToolStatus::Inside
-        } else if self.is_convex() && moved == Moved::AtRest && !scene.is_global(&state.pair) {
+        } else if self.is_convex() && moved == Moved::AtRest && !state.is_in_front {
             ToolStatus::Behind
         } else if moved == Moved::AtRest {
             ToolStatus::AtRest
@@ -184,12 +213,15 @@ impl ToolWitness {
             corners: [None; CORNERS],
             edges: [None; EDGES],
             vertices: ([pair.a; 4], u16::MAX),
+            vertices_rest_for: 0.0,
             borders: [None; 4],
+            count: [0; 2],
             rivals: [None; RIVALS],
             explorer: None,
             cells: Cells::START,
             placement: *placement,
             is_inside: false,
+            is_in_front: true,
         }
     }
 
@@ -224,11 +256,27 @@ impl ToolWitness {
         core::iter::once(&self.pair).chain(parts).chain(self.rivals.iter().flatten())
     }
 
-    /// The corners of the pair's face, each with the opposite point of a core that is no body.
-    pub(super) fn vertices(&self, region: &Region, placement: &Placement) -> impl Iterator<Item = (&Foot, Vec3)> {
+    /// The corners, the borders and the edges: those that there are come first.
+    pub(super) fn parts(&self) -> impl Iterator<Item = &Option<Part>> {
+        let [corners, edges] = self.count.map(usize::from);
+        self.corners.iter().take(corners).chain(&self.borders).chain(self.edges.iter().take(edges))
+    }
+
+    /// The same.
+    pub(super) fn parts_mut(&mut self) -> impl Iterator<Item = &mut Option<Part>> {
+        let [corners, edges] = self.count.map(usize::from);
+        self.corners.iter_mut().take(corners).chain(&mut self.borders).chain(self.edges.iter_mut().take(edges))
+    }
+
+    /// The corners of the pair's face that may be near, each with the opposite point of a core that is no body.
+    pub(super) fn vertices<'a>(
+        &'a self,
+        region: &Region,
+        placement: &'a Placement,
+    ) -> impl Iterator<Item = (&'a Foot, Vec3)> {
         let (vertices, face) = &self.vertices;
-        let count = if *face == u16::MAX { 0 } else { vertices.len() };
-        let (region, placement) = (region.solid(), *placement);
+        let count = if *face == u16::MAX || self.vertices_rest_for > 0.0 { 0 } else { vertices.len() };
+        let region = region.solid();
         vertices.iter().take(count).map(move |a| (a, region.nearest(placement.point_to_b(a.point())).0))
     }
 
@@ -245,7 +293,36 @@ impl ToolWitness {
 
 impl Part {
     pub const fn new(pair: Pair, middle: Vec3, half: Vec3) -> Self {
-        Self { pair, middle, half, held: [false; 2], rests_for: 0.0 }
+        let (since, distance, normal) = (f32::INFINITY, 0.0, Vec3::ZERO);
+        Self { pair, middle, half, held: [false; 2], rests_for: 0.0, since, is_settled: false, distance, normal }
+    }
+
+    pub fn is_border(&self) -> bool {
+        self.held != [false; 2]
+    }
+
+    /// Whether it was visited in this tick.
+    pub fn is_fresh(&self) -> bool {
+        self.since <= 0.0
+    }
+
+    /// Not above its distance from a convex body: that of the plane through the body's point at the last visit, behind
+    /// which all of the body lies. Without one it comes nearer by no more than the core moves. A border's point takes the
+    /// core's nearest to it, and may slide by as much.
+    fn least_distance(&mut self, region: &Region, placement: &Placement) -> f32 {
+        if self.is_border() {
+            let a = self.pair.a.point();
+            let b = region.nearest(placement.point_to_b(a)).0;
+            self.pair.b = Foot::in_solid(b);
+            let squared = (placement.point_to_a(b) - a).length_squared() - self.since * self.since;
+            return if squared > 0.0 { sqrt(squared) } else { 0.0 };
+        }
+        if self.normal == Vec3::ZERO {
+            return self.distance - self.since;
+        }
+        let (normal, half) = (placement.direction_to_b(self.normal), self.half);
+        let across = normal.x.abs() * half.x + normal.y.abs() * half.y + normal.z.abs() * half.z;
+        self.normal.dot(placement.origin - self.pair.a.point()) + normal.dot(self.middle) - across
     }
 
     /// Whether it can be neither the nearest nor in contact, and its pair was left where it was.
@@ -271,16 +348,14 @@ impl Scene<'_> {
     }
 
     /// Steps until none ends with a switch: behind an edge the first ends on it, short of the closest pair.
-    fn follow(&mut self, region: &Region, pair: &mut Pair) -> Moved {
-        let mut moved = Moved::AtRest;
+    fn follow(&mut self, region: &Region, pair: &mut Pair) -> (Moved, bool) {
+        let (mut moved, mut switched) = (Moved::AtRest, true);
         for _ in 0..MAX_SWITCHES {
-            let switched;
-            (moved, switched) = self.tick_on(region, pair, [false; 2]);
-            if !switched {
-                break;
+            if switched {
+                (moved, switched) = self.tick_on(region, pair, [false; 2]);
             }
         }
-        moved
+        (moved, switched)
     }
 
     /// One step; whether a point has changed its face as well.
@@ -299,29 +374,92 @@ impl Scene<'_> {
         (moved, switched)
     }
 
-    /// A step of a corner or an edge, unless it cannot be the nearest yet, nor in contact. Distances to a convex body
-    /// change by no more than the core moves: two of them approach each other by twice that.
-    fn tick_part(&mut self, part: &mut Part, tool: &Tool, least: f32, motion: f32) {
-        part.rests_for -= motion;
-        if part.rests_for > 0.0 {
-            return;
+    /// Steps of the parts that may be the nearest or in contact.
+    ///
+    /// If `is_lean`, beside a convex body, at most [`VISITS`] of them: first one that may be nearer than the pair, then the nearest of
+    /// those whose planes may be nearer than the body by more than [`STALE_M`] and a share of their gaps. At a distance `d` a
+    /// plane falls short by at most `m²/2d` after a motion of `m`, which counts as nearer too, so that each has its turn.
+    fn tick_parts(&mut self, state: &mut ToolWitness, tool: &Tool, motion: f32, is_lean: bool) {
+        let least = self.distance(&state.pair);
+        let mut best = (least - NEARER * self.body.size(), None);
+        let mut nearest = (least - NEARER * self.body.size(), None);
+        let mut due = [(f32::INFINITY, None); VISITS];
+        let region = self.region.solid();
+        for (index, part) in state.parts_mut().enumerate() {
+            let Some(part) = part else { continue };
+            part.since += motion;
+            part.rests_for -= motion;
+            if part.rests_for > 0.0 {
+                continue;
+            }
+            if !is_lean {
+                self.visit(part);
+                part.rests_for = Self::rest(part.distance, tool, least);
+                if part.distance < best.0 && !part.is_at_rest() {
+                    best = (part.distance, Some(index));
+                }
+                continue;
+            }
+            let at_least = part.least_distance(&region, self.placement);
+            part.rests_for = Self::rest(at_least, tool, least);
+            if part.rests_for > 0.0 {
+                continue;
+            }
+            // A corner before the edges that end in it, whose planes lean by rounding.
+            if at_least < nearest.0 {
+                nearest = (at_least - TOUCHING * self.body.size(), Some(index));
+            }
+            let gap = at_least - tool.radius();
+            let slack = STALE_M + if gap > 0.0 { gap } else { 0.0 };
+            if !part.is_settled || part.since * part.since >= 2.0 * tool.radius() * slack {
+                let mut entering = (at_least - part.since, Some(index));
+                for slot in &mut due {
+                    if entering.0 < slot.0 {
+                        core::mem::swap(slot, &mut entering);
+                    }
+                }
+            }
         }
-        let b = part.pair.b;
-        let region = Region::Solid { middle: part.middle, half: part.half };
-        if part.held == [false; 2] {
-            self.follow(&region, &mut part.pair);
-        } else {
-            self.tick_on(&region, &mut part.pair, part.held);
+        let mut visits = VISITS;
+        for index in core::iter::once(nearest).chain(due).filter_map(|(_, index)| index) {
+            let Some(Some(part)) = state.parts_mut().nth(index).filter(|_| visits > 0) else { continue };
+            if !part.is_fresh() {
+                self.visit(part);
+                visits -= 1;
+                if part.distance < best.0 {
+                    best = (part.distance, Some(index));
+                }
+            }
         }
-        if part.half == Vec3::ZERO {
-            // A corner stays where it is, on its face.
-            part.pair.b = b;
+        if let Some(Some(Some(part))) = best.1.map(|index| state.parts().nth(index)) {
+            state.pair = part.pair;
         }
-        part.rests_for = self.rest(part, tool, least);
     }
 
-    pub(super) fn rest(&self, part: &Part, tool: &Tool, least: f32) -> f32 {
-        let distance = self.distance(&part.pair);
+    /// A step of a part, and its plane.
+    fn visit(&mut self, part: &mut Part) {
+        // A corner's leaves it where it is.
+        let region = Region::Solid { middle: part.middle, half: part.half };
+        let switched = if part.is_border() {
+            self.tick_on(&region, &mut part.pair, part.held).1
+        } else {
+            self.follow(&region, &mut part.pair).1
+        };
+        self.note(part);
+        part.is_settled = !switched;
+    }
+
+    /// Takes the plane of a part at its place.
+    pub(super) fn note(&mut self, part: &mut Part) {
+        let difference = part.pair.difference(self.placement);
+        part.distance = sqrt(difference.length_squared());
+        let is_in_front = part.pair.a.outward(self.body).dot(difference) < 0.0;
+        part.normal = if is_in_front { -unit(difference) } else { Vec3::ZERO };
+        (part.since, part.is_settled) = (0.0, true);
+    }
+
+    /// Motion of the core after which a part at a distance may be the nearest, or in contact.
+    pub(super) fn rest(distance: f32, tool: &Tool, least: f32) -> f32 {
         let until_nearest = 0.5 * (distance - least);
         let until_contact = distance - tool.radius() - REACH_M;
         if until_nearest < until_contact { until_nearest } else { until_contact }
@@ -375,37 +513,41 @@ impl Scene<'_> {
     }
 
     /// Makes the nearest of pair, corners, edges, vertices and rivals the pair; drops rivals that are far, or one with another.
-    fn exchange(&mut self, state: &mut ToolWitness) {
+    fn exchange(&mut self, state: &mut ToolWitness, tool: &Tool, motion: f32) {
         let face = state.pair.a.face;
         // Of a convex body and a point the pair is all.
         let is_point = matches!(self.region, Region::Solid { half: Vec3::ZERO, .. }) && self.body.is_convex();
+        state.vertices_rest_for -= motion;
         if let (false, true, Region::Solid { middle, half }) = (is_point, state.vertices.1 != face, self.region) {
             self.evaluations += 8;
+            state.vertices_rest_for = 0.0;
             let ends = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
             state.vertices = (ends.map(|end| Foot::on(self.body, face, end)), face);
             for (number, border) in state.borders.iter_mut().enumerate() {
                 let mut at = state.pair.a.parameters;
                 at[number / 2] = if number % 2 == 0 { 0.0 } else { 1.0 };
                 let pair = Pair::facing(Foot::on(self.body, face, at), &self.region, self.placement);
-                *border = Some(Part { pair, middle, half, held: [number < 2, number >= 2], rests_for: 0.0 });
+                let mut part = Part { held: [number < 2, number >= 2], ..Part::new(pair, middle, half) };
+                self.note(&mut part);
+                *border = Some(part);
             }
         }
         let mut least = self.distance(&state.pair) - NEARER * self.body.size();
-        let parts = state.corners.iter().chain(&state.edges).chain(&state.borders).flatten();
-        for part in parts.filter(|part| !part.is_at_rest()) {
-            let distance = self.distance(&part.pair);
-            if distance < least {
-                (least, state.pair) = (distance, part.pair);
-            }
-        }
-        let mut nearest = None;
+        let (mut nearest, mut rest_for) = (None, f32::INFINITY);
         for (a, b) in state.vertices(&self.region, self.placement) {
             let distance = sqrt((a.point() - self.placement.point_to_a(b)).length_squared());
+            let rests = Self::rest(distance, tool, least);
+            rest_for = if rests < rest_for { rests } else { rest_for };
             if distance < least {
                 (least, nearest) = (distance, Some(Pair { a: *a, b: Foot::in_solid(b), halvings: 0 }));
             }
         }
-        state.pair = nearest.unwrap_or(state.pair);
+        if rest_for < f32::INFINITY {
+            state.vertices_rest_for = rest_for;
+        }
+        if let Some(nearest) = nearest {
+            state.pair = nearest;
+        }
         for rival in state.rivals.iter_mut().flatten() {
             let distance = self.distance(rival);
             if distance < least {
