@@ -1,6 +1,7 @@
 """Bodies: baked from every kind of model, saved, loaded, refused."""
 
 import re
+import sys
 
 import numpy as np
 import palpate
@@ -170,8 +171,12 @@ def test_the_patch_of_the_page_is_a_quarter_of_a_cylinder():
     assert abs(names["gap"][0] - (np.hypot(0.03, 0.03) - 0.02)) < 1e-8
 
 
-def test_a_long_bake_says_how_far_it_is_unless_it_is_to_be_silent(capsys):
+def test_a_long_bake_says_at_a_terminal_how_far_it_is_unless_it_is_to_be_silent(capsys, monkeypatch):
     sphere = ROOT / "host-tests/cad/tests/parts/s06.step"
+    # Redirected, as into a log.
+    palpate.Body.bake(sphere)
+    assert capsys.readouterr().err == ""
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
     palpate.Body.bake(sphere, progress=False)
     assert capsys.readouterr().err == ""
     palpate.Body.bake(sphere)

@@ -34,7 +34,7 @@ class Body:
         progress: bool = True,
     ) -> Body:
         """Bakes a body, its certificates and Voronoi regions proved on the way. From the second second on, `progress`
-        prints how far it is to ``sys.stderr``, in one line.
+        prints how far it is to ``sys.stderr``, in one line, where that is a terminal.
 
         `model` is a path: a model file (``.toml``), a CAD part (``.step``, ``.stp``, made into patches within
         `tolerance`, m), a baked body (``.palp``), or the bare name of a model that ships. Or it is a list of patches,
@@ -58,13 +58,15 @@ class Body:
         if isinstance(model, (list, tuple)):
             model = [patch_of(patch) if is_surface(patch) else _plain(patch) for patch in model]
         told: list[int] = []
+        # A log would get all of it as one long line.
+        is_shown = progress and sys.stderr is not None and sys.stderr.isatty()
 
         def tell(done: int, of: int) -> None:
             told.append(done)
             print(f"\rbaking: {done} of {of} cells of space".ljust(60), end="", file=sys.stderr, flush=True)
 
         try:
-            return Body(_native.Body.bake(model, tolerance, unit, modes, tell if progress else None))
+            return Body(_native.Body.bake(model, tolerance, unit, modes, tell if is_shown else None))
         finally:
             if told:
                 print(file=sys.stderr)
