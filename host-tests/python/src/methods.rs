@@ -1,13 +1,13 @@
 //! The methods of a body in Python.
 
-use crate::arrays::{Line, Table, amplitudes, line, rows, table, usable};
+use crate::arrays::{Table, amplitudes, line, rows, table, usable};
 use crate::body::Body;
 use crate::closest::Found;
 use crate::model::{of_baked, of_file};
 use crate::modes::Modes;
 use crate::pair::Pair;
 use crate::refusal::Refusal;
-use crate::settle::{Ends, Law, settle, settle_baseline};
+use crate::settle::{Ends, Law, Target, settle, settle_baseline};
 use crate::tracker::Tracker;
 use crate::{evaluate, patches};
 use glam::DVec3;
@@ -165,6 +165,7 @@ impl Body {
         Ok(columns.map(|column| table(py, column)))
     }
 
+    #[expect(clippy::too_many_arguments, reason = "Python's own")]
     fn settle<'py>(
         &self,
         py: Python<'py>,
@@ -173,18 +174,24 @@ impl Body {
         starts: PyReadonlyArray2<'py, f64>,
         law_name: &str,
         most: u32,
-    ) -> PyResult<(Table<'py, f32>, Line<'py, u32>, Line<'py, bool>)> {
+        tolerance: f64,
+    ) -> PyResult<Bound<'py, PyTuple>> {
         let starts = rows::<2>("starts", &starts)?;
         usable("probe", &[probe])?;
+        if !(tolerance > 0.0 && tolerance.is_finite()) {
+            let says = "give how near to the closest point counts as there, in sizes of the body, above 0";
+            return Err(Refusal::Settings(format!("tolerance is {tolerance}: {says}")).into());
+        }
         let (law, patch, place) = (Law::named(law_name)?, &self.face(face)?.patch, self.local(probe));
-        let (ends, steps, rests): Ends = py.detach(|| match law {
-            Law::Controller(controller) => settle(patch, &controller, place, &starts, most),
-            Law::Baseline(method) => {
-                let surface = &self.baked.faces[face].surface;
-                settle_baseline(surface, method, DVec3::from_array(probe) - self.middle(), &starts, most)
+        let (ends, steps, rests, arrived): Ends = py.detach(|| {
+            let probe = DVec3::from_array(probe) - self.middle();
+            let target = Target::new(&self.baked.faces[face].surface, probe, tolerance * f64::from(self.size()));
+            match law {
+                Law::Controller(controller) => settle(patch, &controller, place, &starts, most, &target),
+                Law::Baseline(method) => settle_baseline(method, probe, &starts, most, &target),
             }
         });
-        Ok((table(py, ends), line(py, steps), line(py, rests)))
+        (table(py, ends), line(py, steps), line(py, rests), line(py, arrived)).into_pyobject(py)
     }
 
     fn tracker(slf: Py<Self>, law: &str, start: Option<(u16, f32, f32)>) -> PyResult<Tracker> {

@@ -8,27 +8,61 @@ use palpate::patch::SplinePatch;
 use palpate::track::{Controller, Outcome, Probe, Witness};
 use palpate_bake::NurbsPatch;
 use palpate_truth::baselines::{Advance, Baseline, Errors, Method};
+use palpate_truth::oracle::{Oracle, OraclePoint};
 
 /// Steps in a row without progress after which a witness point rests.
 const RESTS: u32 = 8;
 /// The period of a step, s. It matters to no law here: both take the gain that is certified.
 const PERIOD: f32 = 1e-3;
 
-/// Parameters at the end, steps, and whether it rests; a row a start.
-pub type Ends = (Vec<[f32; 2]>, Vec<u32>, Vec<bool>);
+/// Parameters at the end, steps, whether it rests, and steps until it is at the closest point; a row a start.
+pub type Ends = (Vec<[f32; 2]>, Vec<u32>, Vec<bool>, Vec<f64>);
 
-/// Where each start ends, after how many steps, and whether it rests there; `most` steps at most.
-pub fn settle(patch: &SplinePatch<'_>, controller: &Controller, probe: Vec3, starts: &[[f64; 2]], most: u32) -> Ends {
+/// The closest point of a face, in double precision.
+pub struct Target<'a> {
+    patch: &'a NurbsPatch,
+    closest: DVec3,
+    tolerance: f64,
+}
+
+impl<'a> Target<'a> {
+    /// Of a probe; `tolerance` in metres.
+    pub fn new(patch: &'a NurbsPatch, probe: DVec3, tolerance: f64) -> Self {
+        Self { patch, closest: Oracle::new(patch).closest(probe).point, tolerance }
+    }
+
+    /// After how many steps a run is at it and stays: `arrived` is the answer before this step.
+    fn arrival(&self, arrived: f64, steps: u32, [u, v]: [f64; 2]) -> f64 {
+        let is_near = OraclePoint::evaluate(self.patch, u, v).point.distance(self.closest) <= self.tolerance;
+        match (is_near, arrived.is_nan()) {
+            (false, _) => f64::NAN,
+            (true, true) => f64::from(steps),
+            (true, false) => arrived,
+        }
+    }
+}
+
+/// Where each start ends, after how many steps, whether it rests there, and when it arrived; `most` steps at most.
+pub fn settle(
+    patch: &SplinePatch<'_>,
+    controller: &Controller,
+    probe: Vec3,
+    starts: &[[f64; 2]],
+    most: u32,
+    target: &Target<'_>,
+) -> Ends {
     let end = |[u, v]: &[f64; 2]| {
         let mut at = Witness::at(patch, *u as f32, *v as f32);
         let (mut steps, mut still) = (0, 0);
+        let mut arrived = target.arrival(f64::NAN, steps, at.parameters.map(f64::from));
         while steps < most && still < RESTS {
             let before = at.parameters;
             let step = controller.step(patch, &mut at, Probe::at(probe), PERIOD);
             steps += 1;
+            arrived = target.arrival(arrived, steps, at.parameters.map(f64::from));
             still = if step.outcome == Outcome::AtRest || before == at.parameters { still + 1 } else { 0 };
         }
-        (at.parameters, steps - still, still == RESTS)
+        (at.parameters, steps - still, still == RESTS, arrived)
     };
     starts.iter().map(end).collect()
 }
@@ -64,11 +98,12 @@ impl Law {
 
 /// Where a baseline ends from each start, likewise, with its steps up to the last that single precision shows; not a
 /// number where it left the patch.
-pub fn settle_baseline(patch: &NurbsPatch, method: Method, probe: DVec3, starts: &[[f64; 2]], most: u32) -> Ends {
-    let baseline = Baseline::new(patch, method, Errors::Covariant);
+pub fn settle_baseline(method: Method, probe: DVec3, starts: &[[f64; 2]], most: u32, target: &Target<'_>) -> Ends {
+    let baseline = Baseline::new(target.patch, method, Errors::Covariant);
     let end = |start: &[f64; 2]| {
         let (mut at, mut steps) = (start.map(|parameter| parameter.clamp(0.0, 1.0)), 0);
         let mut still = 0;
+        let mut arrived = target.arrival(f64::NAN, steps, at);
         // In double precision eight small steps may be on the way: it goes on to the end.
         while steps < most {
             match baseline.step(at, probe) {
@@ -78,12 +113,13 @@ pub fn settle_baseline(patch: &NurbsPatch, method: Method, probe: DVec3, starts:
                     still = if is_still { still + 1 } else { 0 };
                     at = next;
                 }
-                Advance::Out(_) => return ([f32::NAN; 2], steps, false),
-                Advance::Nowhere => return (at.map(|parameter| parameter as f32), steps - still, true),
+                Advance::Out(_) => return ([f32::NAN; 2], steps, false, f64::NAN),
+                Advance::Nowhere => return (at.map(|parameter| parameter as f32), steps - still, true, arrived),
             }
             steps += 1;
+            arrived = target.arrival(arrived, steps, at);
         }
-        (at.map(|parameter| parameter as f32), steps - still, still >= RESTS)
+        (at.map(|parameter| parameter as f32), steps - still, still >= RESTS, arrived)
     };
     starts.iter().map(end).collect()
 }

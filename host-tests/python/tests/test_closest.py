@@ -118,8 +118,9 @@ def test_no_point_is_nearer_than_the_bound_of_the_error_says():
 
 
 def test_queries_beyond_the_tables_are_marked(capped_box):
-    near, far = capped_box.closest([[0.03, 0.02, 0.05], [50.0, 50.0, 50.0]]).far
-    assert not near and far
+    found = capped_box.closest([[0.03, 0.02, 0.05], [50.0, 50.0, 50.0]])
+    assert found.far.tolist() == [False, True]
+    assert found.steps is found.evaluations
 
 
 @pytest.mark.parametrize(

@@ -13,6 +13,7 @@ U, V = 4, 3
 PLACES = np.array([[[0.03 * i, 0.02 * j, 0.004 * (i * i - j) + 0.002 * i * j] for j in range(V)] for i in range(U)])
 WEIGHTS = np.array([[1.0 + 0.3 * i + 0.1 * j * j for j in range(V)] for i in range(U)])
 KNOTS_U, KNOTS_V = [0, 0, 0, 0.3, 1, 1, 1], [0, 0, 0, 1, 1, 1]
+BASELINES = ["newton", "saturated-newton", "projected-newton", "projected-gradient"]
 AT = np.random.default_rng(3).uniform(size=(50, 2))
 
 
@@ -74,7 +75,7 @@ def test_what_is_no_surface_in_three_dimensions_is_refused():
         palpate.patch_of(trimmed)
 
 
-@pytest.mark.parametrize("law", ["newton", "saturated-newton", "projected-newton", "projected-gradient"])
+@pytest.mark.parametrize("law", BASELINES)
 def test_the_baselines_end_where_the_surface_is_met_at_a_right_angle(law):
     spline, _ = of_splinepy(True)
     body = palpate.Body.bake(spline)
@@ -96,12 +97,35 @@ def test_the_baselines_end_where_the_surface_is_met_at_a_right_angle(law):
     assert steps < 9 or law == "projected-gradient"
 
 
+@pytest.mark.parametrize("law", ["second-order", "certified", *BASELINES])
+def test_arrived_counts_the_steps_until_the_closest_point_is_near_for_good(law):
+    spline, _ = of_splinepy(True)
+    body = palpate.Body.bake(spline)
+    foot = np.array([[0.45, 0.55]])
+    normal = np.cross(*[np.asarray(spline.derivative(foot, order))[0] for order in ([1, 0], [0, 1])])
+    probe = spline.evaluate(foot)[0] + 0.004 * normal / np.linalg.norm(normal)
+    starts, most, tolerance = np.concatenate([foot, foot + 0.04, foot - 0.1]), 100, 1e-3
+    settled = body.settle(0, probe, starts, law=law, most=most, tolerance=tolerance)
+    ends = [body.settle(0, probe, starts, law=law, most=steps).parameters for steps in range(most + 1)]
+    # By splinepy's points, against the foot that the probe was put out from.
+    off = np.array([np.linalg.norm(spline.evaluate(end.astype(float)) - spline.evaluate(foot), axis=1) for end in ends])
+    last_far = [np.flatnonzero(column > tolerance * body.size).max(initial=-1) for column in off.T]
+    np.testing.assert_array_equal(settled.arrived, np.add(last_far, 1))
+    assert settled.arrived[0] == 0 < settled.arrived[1] <= settled.arrived[2] < most
+    assert law not in ("second-order", "newton") or settled.arrived.max() < 12
+    # With one step fewer than it takes it is never there.
+    short = body.settle(0, probe, starts[2:], law=law, most=int(settled.arrived[2]) - 1, tolerance=tolerance)
+    assert np.isnan(short.arrived).all()
+    with pytest.raises(palpate.SettingsError, match="tolerance is 0"):
+        body.settle(0, probe, starts, law=law, tolerance=0)
+
+
 def test_newton_may_leave_the_face_and_an_unknown_law_is_named():
     body = palpate.Body.bake(of_splinepy(False)[0])
     beyond = np.array([0.2, 0.02, 0.0])
     left = body.settle(0, beyond, [[0.9, 0.5]], law="newton")
     assert np.isnan(left.parameters).all()
-    assert not left.rests.any()
+    assert not left.rests.any() and np.isnan(left.arrived).all()
     assert body.settle(0, beyond, [[0.9, 0.5]], law="saturated-newton").parameters[0, 0] == 1
     with pytest.raises(palpate.SettingsError, match="steepest.*projected-gradient"):
         body.settle(0, beyond, [[0.9, 0.5]], law="steepest")

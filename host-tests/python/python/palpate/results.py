@@ -17,7 +17,7 @@ class Closest(NamedTuple):
     gap : (n,) float64 -- the distance, m; negative inside a closed body, unless it was asked for without a sign.
     face : (n,) uint32 -- index of the body's face; a patch may be several.
     on_face : (n, 2) float32 -- (u, v) on the face, as the firmware has them.
-    evaluations : (n,) uint32 -- evaluations of patches spent.
+    evaluations : (n,) uint32 -- evaluations of patches spent; `steps`, as the command's column, is the same.
     complete : (n,) bool -- whether every candidate was searched to its end; with modes, and the query is not `far`.
     far : (n,) bool -- whether the query lies beyond the tables: it takes the list of the nearest cell, which is not
         proved to hold the closest point from there.
@@ -36,6 +36,11 @@ class Closest(NamedTuple):
     far: NDArray[np.bool_]
     clamped: NDArray[np.bool_]
     error_bound: NDArray[np.float64]
+
+    @property
+    def steps(self) -> NDArray[np.uint32]:
+        """`evaluations`, by the name of the column of ``palpate closest``."""
+        return self.evaluations
 
 
 class Ticks(NamedTuple):
@@ -82,15 +87,19 @@ class Settled(NamedTuple):
     """Where a control law ends on one face, a row a start.
 
     parameters : (n, 2) float32 -- (u, v) at the end.
-    steps : (n,) uint32 -- steps up to the last that moved it in single precision, of every law alike. One
+    steps : (n,) uint32 -- steps up to the last that moved it in single precision, of every law alike; `most` where the
+        last bits never rest, usual in single precision: compare laws by `arrived`. A step
         evaluates the face once; those of the projected laws again for each halving.
     rests : (n,) bool -- whether its last eight steps did not move it in single precision, which takes eight. A method in
         double precision also rests where it has no step to take: at a minimum, or where Newton's matrix is singular.
+    arrived : (n,) float64 -- steps until the point is within the tolerance of the face's closest point (found in double
+        precision) and stays there to the end, of every law alike; NaN where it never is, or left the face.
     """
 
     parameters: NDArray[np.float32]
     steps: NDArray[np.uint32]
     rests: NDArray[np.bool_]
+    arrived: NDArray[np.float64]
 
 
 class Apart(NamedTuple):
