@@ -3,11 +3,13 @@
 
 use crate::anywhere::wavy;
 use glam::DVec3;
-use palpate::track::{Contact, Controller, Probe};
+use palpate::patch::Patch as _;
+use palpate::track::{Contact, Controller, FirstOrder, Probe, Witness};
 use palpate_bake::{BakedBody, Model};
 use palpate_truth::closest::Solver;
 use palpate_truth::generate::Random;
-use palpate_truth::oracle::Oracle;
+use palpate_truth::measured::{grouped, measured};
+use palpate_truth::oracle::{Oracle, OraclePoint};
 
 /// Of the dense search, and of `f32` at this size.
 const EXACT_MM: f64 = 0.001;
@@ -85,4 +87,54 @@ fn uneven_weights_do_not_hold_the_tracker_back() {
     let of = |share: f64| off[(off.len() as f64 * share) as usize];
     println!("{} rows: off by {:.1e} of the size in the median, {:.1e} at 95 %", off.len(), of(0.5), of(0.95));
     assert!(off.len() > 1_000 && of(0.95) < 1e-6, "{:.1e}", of(0.95));
+}
+
+/// A flat dome of 60 mm by 60 mm, its weights drawn from 1 to this.
+fn dome(heaviest: f64) -> String {
+    let mut random = Random::new(4);
+    let mut point = |i: usize, j: usize| {
+        let [x, y] = [i, j].map(|index| 20.0 * index as f64);
+        let z = 12.0 - ((x - 30.0).powi(2) + (y - 30.0).powi(2)) / 200.0;
+        format!("[{x:?}, {y:?}, {z}, {}]", if heaviest > 1.0 { random.scale(1.0, heaviest) } else { 1.0 })
+    };
+    let rows = [0, 1, 2, 3].map(|i| format!("[{}]", [0, 1, 2, 3].map(|j| point(i, j)).join(", ")));
+    format!("unit = \"mm\"\n[[patch]]\ndegree = [3, 3]\npoints = [{}]\n", rows.join(", "))
+}
+
+/// From a grid of starts to the closest point of probes straight out, as Figure 7: the runs that arrive.
+#[test]
+fn uneven_weights_cost_the_papers_law_many_steps() {
+    const LAWS: [(&str, Controller); 2] =
+        [("the paper's law", Controller::FirstOrder(FirstOrder::CERTIFIED)), ("second order", Controller::SecondOrder)];
+    for heaviest in [1.0, 10.0] {
+        let model = Model::parse(&dome(heaviest), "dome").unwrap();
+        let baked = BakedBody::new(&model, "dome").unwrap();
+        let options = baked.locator_options();
+        let baked = baked.located_for(&[], &options, &|_, _| ()).unwrap();
+        let body = baked.to_body().unwrap();
+        let (patch, oracle, size) = (&body.faces()[0].patch, Oracle::new(&model.patches[0]), f64::from(body.size()));
+        let mut random = Random::new(2);
+        let mut target = || {
+            let at = OraclePoint::evaluate(&model.patches[0], random.between(0.1, 0.9), random.between(0.1, 0.9));
+            let probe = at.point + 0.1 * size * at.normal(false);
+            (oracle.closest(probe).point.distance(at.point) < 1e-6 * size).then_some((probe, at.point))
+        };
+        let targets: Vec<_> = (0..200).filter_map(|_| target()).take(5).collect();
+        assert_eq!((body.faces().len(), targets.len()), (1, 5));
+        for (name, law) in &LAWS {
+            let mut steps: Vec<u64> = Vec::new();
+            for (run, (probe, closest)) in (0..36 * targets.len()).map(|run| (run % 36, &targets[run / 36])) {
+                let mut at = Witness::at(patch, (run / 6) as f32 / 5.0, (run % 6) as f32 / 5.0);
+                let mut off = || {
+                    law.step(patch, &mut at, Probe::at(probe.as_vec3()), 1.0);
+                    patch.evaluate(at.parameters[0], at.parameters[1]).point.as_dvec3().distance(*closest)
+                };
+                steps.extend((1..20_000).find(|_| off() <= 1e-4 * size));
+            }
+            steps.sort_unstable();
+            assert!(steps.len() > 90, "{} of 180 arrive", steps.len());
+            let claim = format!("steps to 1e-4 of the size on a dome, weights to {heaviest}, {name}: median");
+            measured(&claim, grouped(steps[steps.len() / 2]));
+        }
+    }
 }
