@@ -24,9 +24,10 @@ def test_what_is_tested_is_the_wheel_that_was_installed():
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
 def test_a_notebook_runs(path):
+    # In its own folder, where jupyter starts it.
     notebook = nbformat.read(path, as_version=4)
     nbformat.validate(notebook)
-    NotebookClient(notebook, timeout=600, kernel_name="python3", resources={"metadata": {"path": ROOT}}).execute()
+    NotebookClient(notebook, timeout=600, kernel_name="python3", resources={"metadata": {"path": path.parent}}).execute()
 
 
 def test_there_are_three_notebooks_and_no_outputs_in_them():
