@@ -2,6 +2,7 @@
 
 import doctest
 import inspect
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -53,6 +54,18 @@ def test_everything_public_says_what_it_is():
     for columns in (palpate.Closest, palpate.Ticks, palpate.Curved, palpate.Apart, palpate.Run, palpate.Records, palpate.Dials, palpate.Turned):
         for field in columns._fields:
             assert field in columns.__doc__, f"{columns.__name__}.{field}: neither shape nor unit"
+
+
+def test_the_page_lists_the_fields_of_results():
+    def field(columns, name):
+        # The size of a row, where it is more than a number.
+        size = re.search(rf"\b{name}\b[^:\n]* : \(n, (\w+)\)", columns.__doc__)
+        return f"`{name}`" + (f" ({size[1]})" if size else "")
+
+    results = [palpate.Closest, palpate.Ticks, palpate.Settled, palpate.Run]
+    rows = [f"| `{columns.__name__}` | {', '.join(field(columns, name) for name in columns._fields)} |" for columns in results]
+    table = "\n".join(["| result | fields; numbers a row |", "|---|---|", *rows])
+    assert table in (ROOT / "docs/howto/python.md").read_text(), f"docs/howto/python.md should have\n{table}"
 
 
 def test_the_types_are_those_of_the_module_and_of_the_package(tmp_path):
