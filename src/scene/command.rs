@@ -9,8 +9,8 @@ use crate::math::{Vec3, inverse_sqrt, vec3};
 use crate::patch::{Patch, SplinePatch};
 use crate::render::{Feel, FeelPart, Friction};
 use crate::servo::{
-    DialState, Guard, Hertzian, Knob, KnobError, KnobWitness, OnePatch, Servo, ServoState, SoftBody, SoftContact,
-    Surface,
+    DialState, Guard, Hertzian, Knob, KnobError, KnobWitness, OnePatch, Phase, Servo, ServoState, SoftBody,
+    SoftContact, Surface,
 };
 use crate::track::Placement;
 use thiserror::Error;
@@ -247,8 +247,8 @@ pub trait Commanded: Surface {
     }
 
     /// The dial as it is, of a knob.
-    fn dial(&self, witness: &Self::Witness) -> Option<DialState> {
-        let _ = witness;
+    fn dial(&self, witness: &Self::Witness, probe: Vec3, phase: Phase) -> Option<DialState> {
+        let _ = (witness, probe, phase);
         None
     }
 
@@ -308,8 +308,8 @@ impl Commanded for Knob {
         }
     }
 
-    fn dial(&self, witness: &KnobWitness) -> Option<DialState> {
-        Some(Self::dial(self, witness))
+    fn dial(&self, witness: &KnobWitness, probe: Vec3, phase: Phase) -> Option<DialState> {
+        Some(Self::dial(self, witness, probe, phase))
     }
 
     fn feel(&self, witness: &KnobWitness) -> Option<Feel> {
@@ -343,9 +343,9 @@ impl<S: Commanded, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>>
         self.surface().restore(state.witness_mut(), feel)
     }
 
-    /// The dial as it is, of a knob.
+    /// The dial as it is, of a knob. A fault ends its torque; the angle goes on.
     pub fn dial(&self, state: &ServoState<JOINTS, S::Witness, G::State>) -> Option<DialState> {
-        self.surface().dial(state.witness())
+        self.surface().dial(state.witness(), state.probe(), state.phase())
     }
 
     /// The feel that a host has set, of a knob.

@@ -1,5 +1,6 @@
 //! A dial as a surface of the loop: a table of feels and one that a host sets, one of them active at a time.
 
+use super::fault::Phase;
 use super::surface::{BakedTables, Surface, Touched, Tracked, witness_words};
 use crate::device::{Device, Dial};
 use crate::math::{Vec3, saturate};
@@ -347,14 +348,15 @@ pub struct DialState {
 }
 
 impl Knob {
-    /// The dial as it is, for a host.
-    pub fn dial(&self, state: &KnobWitness) -> DialState {
-        let (feel, whole) = (self.active(state), state.whole.unwrap_or(0.0));
+    /// The dial as it is, for a host: a fault ends the feel's torque, and the angle goes on with the probe.
+    pub fn dial(&self, state: &KnobWitness, probe: Vec3, phase: Phase) -> DialState {
+        let (feel, angle) = (self.active(state), probe.x / self.radius);
+        let whole = state.whole.map_or(0.0, |_| wound(state.turns.wrapping_sub(state.base), angle));
         let beyond = |[least, most]: [f32; 2]| i8::from(whole > most) - i8::from(whole < least);
         DialState {
             turns: state.turns,
-            angle_rad: state.witness.surface.point.x / self.radius,
-            torque_n_m: state.torque,
+            angle_rad: angle,
+            torque_n_m: if phase == Phase::Fault { 0.0 } else { state.torque },
             feel: state.feel,
             detent: feel.detent(whole),
             end: feel.ends.map_or(0, |ends| beyond(ends.between_rad)),

@@ -382,8 +382,7 @@ pub unsafe extern "C" fn palpate_servo_dial(servo: *mut Handle<Started>, dial: *
     let read = || {
         checked_mut(dial)?;
         // SAFETY: the caller's handle, nobody else's.
-        let (knob, state) = unsafe { running(servo) }?.dial().ok_or(Status::KnobNone)?;
-        let now = knob.dial(state);
+        let now = unsafe { running(servo) }?.turned().ok_or(Status::KnobNone)?;
         let turned = TurnedNumbers {
             turns: now.turns,
             angle: now.angle_rad,

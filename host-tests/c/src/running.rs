@@ -8,7 +8,7 @@ use crate::status::Status;
 use palpate_core::device::{Counts, Kinematics};
 use palpate_core::field::MAX_MODES;
 use palpate_core::servo::{
-    Event, Guard, Input, Knob, KnobWitness, ResetReason, Servo, ServoState, Surface, Tracked as _,
+    DialState, Event, Guard, Input, Knob, KnobWitness, ResetReason, Servo, ServoState, Surface, Tracked as _,
 };
 use palpate_core::wire::Report;
 
@@ -48,6 +48,8 @@ pub trait Running {
     fn modes(&self) -> Option<[f32; MAX_MODES]>;
     /// The dial and its state, of a loop that renders one.
     fn dial(&mut self) -> Option<(&Knob, &mut KnobWitness)>;
+    /// Where that dial is.
+    fn turned(&mut self) -> Option<DialState>;
     /// The state for the wire.
     fn report(&self, instructions: u32) -> Report;
 }
@@ -107,6 +109,12 @@ where
 
     fn dial(&mut self) -> Option<(&Knob, &mut KnobWitness)> {
         self.servo.surface().0.dial(self.state.witness_mut())
+    }
+
+    fn turned(&mut self) -> Option<DialState> {
+        let (probe, phase) = (self.state.probe(), self.state.phase());
+        let (knob, state) = self.dial()?;
+        Some(knob.dial(state, probe, phase))
     }
 
     fn report(&self, instructions: u32) -> Report {

@@ -141,10 +141,10 @@ impl Turned {
     /// Angle of the dial and of its springs and stops, rad; rate, rad/s; the feel's torque, N·m; detent; end; phase;
     /// fault; maximum change of torque in the last run, N·m.
     pub fn view(&self, out: &mut Vec<f32>) {
-        let dial = KNOB.dial(self.state.witness());
+        let dial = KNOB.dial(self.state.witness(), self.state.probe(), self.state.phase());
         let whole = self.state.witness().angle().unwrap_or(self.angle);
         let fault = self.state.fault().map_or(0, |(fault, _)| fault.code());
-        out.extend([self.angle, whole, self.rate, self.state.witness().torque()]);
+        out.extend([self.angle, whole, self.rate, dial.torque_n_m]);
         out.extend([dial.detent as f32, f32::from(dial.end)]);
         out.extend([f32::from(self.state.phase() as u8), f32::from(fault), self.step]);
     }

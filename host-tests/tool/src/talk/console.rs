@@ -150,7 +150,7 @@ impl<'a, L: Line> Console<'a, L> {
             if last.is_none_or(|last| now.saturating_duration_since(last) >= SHOWS) {
                 self.turns = Some((until, Some(now)));
                 let dial = self.device.dial(Duration::ZERO)?;
-                writeln!(output, "{}", turned(&dial))?;
+                writeln!(output, "{}{}", turned(&dial), stopped(&view))?;
             }
             self.turns = self.turns.filter(|_| now < until);
         }
@@ -360,6 +360,11 @@ fn turned(dial: &Dial) -> String {
         dial.detent,
         dial.feel,
     )
+}
+
+/// The fault that stopped the device, if one did.
+fn stopped(view: &View) -> String {
+    Fault::from_code(view.fault).map_or_else(String::new, |fault| format!("; stopped: {fault}"))
 }
 
 /// A view in a line.

@@ -1,5 +1,6 @@
 //! `talk`, with a simulated device: lines in, sentences out.
 
+use std::collections::BTreeSet;
 use std::io::Write as _;
 use std::process::{Command, Stdio};
 
@@ -75,6 +76,12 @@ fn a_knob_says_what_became_of_its_feel() {
     let outcome = "done\nkept: the knob starts with this feel from the next reset on\n\
                    cleared: it starts with its table from the next reset on\n";
     assert_eq!((status, said.contains(outcome)), (Some(0), true), "{said}{complained}");
+    // The hand turns the dial on, which has no torque.
+    let (_, said, complained) = talk(&arguments, "stop\nwait 0.1\ndial 0.6\n");
+    let turns: Vec<_> = said.lines().filter(|line| line.starts_with("dial at")).collect();
+    let angles: BTreeSet<_> = turns.iter().map(|line| line.split(' ').nth(2)).collect();
+    let is_stopped = |line: &&str| line.contains(" 0.0 mN·m;") && line.ends_with("; stopped: stopped by hand");
+    assert!(turns.len() > 3 && angles.len() > 3 && turns.iter().all(is_stopped), "{said}{complained}");
     for (lines, says) in [
         ("keep-feel\n", "keep-feel was refused by the device: no feel was set since the last reset; set one first"),
         (
