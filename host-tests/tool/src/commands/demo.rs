@@ -65,7 +65,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     } else {
         rate::in_time(&arguments.scene, &mut scene, |scene| on_board(arguments, scene), |run| &run.trace)?
     };
-    let mut figures = vec![("wall", scene.wall())];
+    let mut figures = scene.walls();
     figures.extend(Summary::new(&run.trace).rows());
     figures.extend(run.sizes);
     // What the page has no device or body for is in the report alone.

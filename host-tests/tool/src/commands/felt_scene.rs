@@ -1,7 +1,9 @@
 //! A scene file as a surface: its bodies, baked, in their places.
 
 use super::felt::SoftModes;
+use super::options::has_room;
 use super::progress;
+use crate::devices::ShippedDevice;
 use crate::models::ModelFile;
 use crate::page::{RecordedBody, RecordedScene};
 use crate::plot::View;
@@ -23,6 +25,14 @@ use std::path::Path;
 const GRID: usize = 24;
 /// Seconds at which a body on a path is drawn, beside the start.
 const DRAWN_AT: [f32; 2] = [1.0, 2.0];
+/// The same where it is only asked whether a hand reaches the body.
+const COARSE: usize = 8;
+/// How often a second a body on a path is looked at, and how many times.
+const LOOK_RATE: f32 = 13.0;
+/// See [`LOOK_RATE`].
+const LOOKS: u32 = 260;
+/// By how much two boxes overlap at least, metres: bodies may lie side by side.
+const APART: f64 = 1e-4;
 /// How far into the highest top the hand's level is, metres: it reaches for the tops of all.
 const REACH: f64 = 0.004;
 
@@ -187,6 +197,47 @@ impl FeltScene {
         nets
     }
 
+    /// Stiffness and damping of each body, in words.
+    pub fn walls(&self) -> impl Iterator<Item = String> {
+        self.file.body.iter().map(|entry| {
+            let most = entry.max_force.map_or_else(String::new, |force| format!(", {force} N at most"));
+            format!("{}: {} N/m, {} N·s/m{most}", entry.name, entry.stiffness, entry.damping)
+        })
+    }
+
+    /// Bodies that no hand reaches on a device, in any of the places where they are looked at, and bodies that overlap
+    /// where they start. `origin` is that of the scene in the workspace, metres.
+    pub fn remarks(&self, device: &ShippedDevice, origin: DVec3) -> Vec<String> {
+        let has_room = has_room(device);
+        let mut remarks = Vec::new();
+        let parts = self.file.parts(LOOK_RATE, &self.bodies);
+        let placed = || self.file.body.iter().zip(&self.bodies);
+        for ((entry, (body, shape)), part) in placed().zip(&parts) {
+            let reaches =
+                |place: Placement| points(body, &place, COARSE).any(|point| has_room((point + origin).to_array()));
+            let is_reached = match &part.motion {
+                Motion::Prescribed(path) => (0..LOOKS).any(|look| reaches(path.at(look))),
+                _ => reaches(entry.placement(shape)),
+            };
+            if !is_reached {
+                remarks.push(format!(
+                    "body {:?} is out of the workspace of {}, nobody feels it: change its `at`, or --at of the scene",
+                    entry.name, device.name
+                ));
+            }
+        }
+        let boxes: Vec<_> = placed().map(|(entry, (body, shape))| bounds(body, &entry.placement(shape))).collect();
+        for (index, (low, high)) in boxes.iter().enumerate() {
+            for (other, (from, to)) in boxes.iter().enumerate().skip(index + 1) {
+                if low.max(*from).cmplt(high.min(*to) - APART).all() {
+                    let [one, two] = [index, other].map(|index| &self.file.body[index].name);
+                    remarks.push(format!("the boxes around bodies {one:?} and {two:?} overlap: bodies do not collide"));
+                }
+            }
+        }
+        remarks
+    }
+
     /// The middle of the box that holds all bodies where they start.
     pub fn middle(&self) -> Vec3 {
         let (low, high) = self.bounds();
@@ -219,13 +270,45 @@ fn shape(body: &Body<'_>, centre: DVec3, motion: f64) -> Shape {
 
 /// The box of a grid of points on each face.
 fn bounds(body: &Body<'_>, place: &Placement) -> (DVec3, DVec3) {
-    let at = |index: usize| index as f32 / GRID as f32;
-    let mut bounds = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    for face in body.faces() {
-        for (i, j) in (0..=GRID).flat_map(|i| (0..=GRID).map(move |j| (i, j))) {
-            let point = place.point_to_a(face.patch.evaluate(at(i), at(j)).point).as_dvec3();
-            bounds = (bounds.0.min(point), bounds.1.max(point));
-        }
+    points(body, place, GRID)
+        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), point| (low.min(point), high.max(point)))
+}
+
+/// A grid of points on each face.
+fn points(body: &Body<'_>, place: &Placement, grid: usize) -> impl Iterator<Item = DVec3> {
+    let at = move |index: usize| index as f32 / grid as f32;
+    let each = move || (0..=grid).flat_map(move |i| (0..=grid).map(move |j| (at(i), at(j))));
+    body.faces()
+        .iter()
+        .flat_map(move |face| each().map(move |(u, v)| place.point_to_a(face.patch.evaluate(u, v).point).as_dvec3()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use palpate_sim::devices::named;
+
+    #[test]
+    fn a_body_out_of_reach_and_two_at_one_place_are_remarked_on() {
+        let device = named("woodenhaptics-2016").expect("it ships");
+        let remarks = |text: &str| {
+            let file = ModelFile::imported(Path::new("scene.toml"), text.to_owned());
+            let scene = FeltScene::read(&file, Path::new("scene.toml")).expect("a scene");
+            scene.remarks(device, DVec3::ZERO)
+        };
+        let body = |name: &str, x: f64| {
+            format!(
+                "[[body]]\nname = {name:?}\nmodel = \"capped_box\"\nat = [{x:?}, 0, 0]\nstiffness = 400\ndamping = 1\n"
+            )
+        };
+        let scene = |bodies: &[(&str, f64)]| {
+            let bodies = bodies.iter().map(|(name, x)| body(name, *x));
+            remarks(&format!("name = \"a scene\"\n{}", bodies.collect::<String>()))
+        };
+        assert_eq!(scene(&[("near", -30.0), ("beside", 60.0)]), [""; 0]);
+        let [far] = &scene(&[("near", 0.0), ("far", 900.0)])[..] else { panic!("one remark") };
+        assert!(far.contains("\"far\" is out of the workspace"), "{far}");
+        let [twice] = &scene(&[("one", 0.0), ("other", 0.0)])[..] else { panic!("one remark") };
+        assert!(twice.contains("\"one\" and \"other\" overlap"), "{twice}");
     }
-    bounds
 }

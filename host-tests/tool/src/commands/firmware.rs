@@ -1,9 +1,11 @@
 //! `palpate firmware`: cargo for the boards.
 
+use super::felt::Felt;
 use super::output::write_whole;
 use super::{bake, long_calls, options};
 use crate::commission::RATE;
 use crate::firmware::{self, AnyBoard, BenchBoard, Kind, Place, Progress, SetUpError, Toolchain, choose_body};
+use crate::models::ModelFile;
 use crate::{devices, repository};
 use anyhow::{Context, ensure};
 use clap::Args;
@@ -56,6 +58,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     if let Some(Chosen { place: None, says, .. }) = &chosen {
         eprintln!("{says}");
         return Ok(ExitCode::from(2));
+    }
+    if let (Some(model), Some(chosen), AnyBoard::Bench(_)) = (&arguments.body, &chosen, arguments.board) {
+        reaches(arguments.device.as_deref(), model, chosen.origin)?;
     }
     let toolchain = Toolchain::set_up(arguments.board.target(), &progress)?;
     let mut command = command(&toolchain, arguments, &progress)?;
@@ -184,6 +189,19 @@ fn chosen(board: AnyBoard, kind: Kind, model: &Path, at: Option<DVec3>) -> anyho
     })
 }
 
+/// Refuses a body that the device, or the boards' own arm, does not reach at its origin, metres, as `sim` does.
+fn reaches(device: Option<&Path>, model: &Path, origin: Vec3) -> anyhow::Result<()> {
+    let name = device.unwrap_or(Path::new("woodenhaptics-2016"));
+    let device = devices::own_device(&devices::own(name)?, &name.to_string_lossy());
+    let file = ModelFile::read(model)?;
+    let places = Felt::read(&file.model()?, &file, model, None, None)?.places();
+    let at = |u, v| {
+        let (point, normal) = places(u, v);
+        ((point + origin.as_dvec3()).to_array(), normal.to_array())
+    };
+    options::path_over(device, at, 5.0, 2).map(drop)
+}
+
 /// The constants of a device for a board's build, and the variable that names their file.
 fn constants(board: AnyBoard, device: &Path) -> anyhow::Result<(&'static str, PathBuf)> {
     let own = devices::own(device)?;
@@ -270,6 +288,13 @@ fn command(toolchain: &Toolchain, arguments: &Arguments, progress: &Progress) ->
 mod tests {
     use super::*;
     use palpate_sim::devices::{BridgeEntry, named};
+
+    #[test]
+    fn a_body_out_of_the_arms_reach_is_refused_as_sim_refuses_it() {
+        let reaches = |x| reaches(None, Path::new("capped_box"), Vec3::new(x, 0.0, 0.0)).map_err(|e| e.to_string());
+        assert_eq!(reaches(0.0), Ok(()));
+        assert!(reaches(0.4).is_err_and(|error| error.contains("--at")));
+    }
 
     #[test]
     fn a_board_takes_the_sensors_and_motor_stages_that_it_has() {

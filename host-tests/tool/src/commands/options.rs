@@ -172,6 +172,11 @@ impl SceneOptions {
         if tool.is_some() {
             felt.rigid_body()?;
         }
+        if let Felt::Scene(scene) = &felt {
+            for remark in scene.remarks(device, body_origin.as_dvec3()) {
+                eprintln!("{}: {remark}", file.label);
+            }
+        }
         let rendering = self.rendering;
         Ok(Scene { file, centre, felt, device, settings, rendering, protection, tool, ticks, enable_at })
     }
@@ -208,23 +213,40 @@ impl SceneOptions {
             let (point, normal) = places(u, v);
             ((point + normal * stand_off + origin).to_array(), normal.to_array())
         };
-        // Where the surface is larger than the workspace, it keeps to the middle of the surface.
-        let (mechanism, preset) = (scene.device.plant.mechanism(0.0), scene.device.preset);
-        let has_room = |place| mechanism.angles(place).is_some_and(|angles| preset.room(angles) > 0.0);
-        let path = TouchingPath::within(point_and_normal, self.seconds, self.seed, has_room).map_err(|error| {
-            if error == PathError::NoRoom {
-                anyhow!(
-                    "{}: {error}: move the model with --at, or the workspace by its device file: `workspace_centre` \
-                     (of a delta `workspace_depth`), each joint's `range`, or a lower `min_margin`",
-                    scene.device.name
-                )
-            } else {
-                anyhow::Error::new(error).context("the hand finds no path over the surface; move the model with --at")
-            }
-        })?;
+        let path = path_over(scene.device, point_and_normal, self.seconds, self.seed)?;
         Plant::new(&scene.device.plant, HandSettings::default(), Box::new(path), f64::from(scene.settings.rate_hz))
             .context("the simulated device cannot start here (move the model with --at)")
     }
+}
+
+/// Whether a place, metres, is in the workspace of a device.
+pub(super) fn has_room(device: &ShippedDevice) -> impl Fn([f64; 3]) -> bool + use<> {
+    let (mechanism, preset) = (device.plant.mechanism(0.0), device.preset);
+    move |place| mechanism.angles(place).is_some_and(|angles| preset.room(angles) > 0.0)
+}
+
+/// The path of a hand over a surface that lies in the workspace of a device, as `at` has it: point and normal, metres.
+/// Where the surface is larger than the workspace, the hand keeps to the middle of the surface.
+///
+/// # Errors
+/// A surface that the hand does not reach.
+pub(super) fn path_over(
+    device: &ShippedDevice,
+    at: impl Fn(f64, f64) -> ([f64; 3], [f64; 3]),
+    seconds: f64,
+    seed: u64,
+) -> anyhow::Result<TouchingPath> {
+    TouchingPath::within(at, seconds, seed, has_room(device)).map_err(|error| {
+        if error == PathError::NoRoom {
+            anyhow!(
+                "{}: {error}: move the model with --at, or the workspace by its device file: `workspace_centre` \
+                 (of a delta `workspace_depth`), each joint's `range`, or a lower `min_margin`",
+                device.name
+            )
+        } else {
+            anyhow::Error::new(error).context("the hand finds no path over the surface; move the model with --at")
+        }
+    })
 }
 
 impl Scene {
@@ -398,12 +420,15 @@ impl Scene {
         ))
     }
 
-    /// The settings of the surface, in words.
-    pub fn wall(&self) -> String {
+    /// The settings of the surface, or of each body of a scene: names and words.
+    pub fn walls(&self) -> Vec<(&'static str, String)> {
         let Settings { stiffness_n_per_m, damping_n_s_per_m, max_force_n, .. } = self.settings;
-        let name = self.rendering.name();
         let tool = self.tool.map_or_else(String::new, |tool| format!("; {}", tool.name()));
-        format!("{stiffness_n_per_m} N/m, {damping_n_s_per_m} N·s/m, {max_force_n} N at most, {name}{tool}")
+        let all = format!("{max_force_n} N at most, {}{tool}", self.rendering.name());
+        match &self.felt {
+            Felt::Scene(scene) => scene.walls().map(|wall| ("body", wall)).chain([("all bodies", all)]).collect(),
+            _ => vec![("wall", format!("{stiffness_n_per_m} N/m, {damping_n_s_per_m} N·s/m, {all}"))],
+        }
     }
 
     /// The model file's name, without its directory.

@@ -31,7 +31,7 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let scene = arguments.scene.scene()?;
     let trace = run_on_host(&arguments.scene, &scene)?;
-    println!("  {:<20} {}", "wall", scene.wall());
+    scene.walls().iter().for_each(|(name, value)| println!("  {name:<20} {value}"));
     print!("{}", Summary::new(&trace));
     if let Some(path) = &arguments.csv {
         write_csv(&trace, &scene, path).with_context(|| format!("cannot write {}", path.display()))?;
