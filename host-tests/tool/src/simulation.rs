@@ -3,11 +3,12 @@
 use crate::firmware::{Link, LinkError};
 use crate::shaped::{GIMBAL, ShapedTool};
 use palpate::device::{Counts, Kinematics, Mount, WristState};
-use palpate::servo::{Event, Guard, Input, Servo, ServoState, Surface, Unguarded};
+use palpate::servo::{Event, Guard, GuardState, Input, Servo, ServoState, Surface, Unguarded};
 use palpate::wire::frame::{Received, Receiver};
 use palpate::wire::{Report, Sensors, WristSensors};
 use palpate_sim::plant::Plant;
 use serde::de::DeserializeOwned;
+use std::any::Any;
 use std::time::Duration;
 
 /// The servo loop compiled for the host, behind the same link as the firmware: the frames and the way from a frame to
@@ -33,7 +34,12 @@ impl<'a, S: Surface, K: Kinematics<3>, G: Guard<3>, F: Frame> HostLoop<'a, S, K,
     }
 }
 
-impl<S: Surface, K: Kinematics<3>, G: Guard<3>, F: FrameTo<K>> Link for HostLoop<'_, S, K, G, F> {
+impl<S: Surface, K: Kinematics<3>, G: Guard<3, State: Any>, F: FrameTo<K>> Link for HostLoop<'_, S, K, G, F> {
+    fn joints_seen(&self) -> Option<[bool; 3]> {
+        let state: &dyn Any = self.state.guard();
+        state.downcast_ref::<GuardState<3>>().map(GuardState::joints_seen)
+    }
+
     fn send_bytes(&mut self, bytes: &[u8]) -> Result<(), LinkError> {
         for byte in bytes {
             let received = self.receiver.feed(*byte);
@@ -128,6 +134,8 @@ pub struct Trace {
     pub rate: f64,
     /// One sample a tick.
     pub samples: Vec<Sample>,
+    /// When the polarity check confirmed each joint, seconds since the start, where the link shows it.
+    pub confirmed: Option<[Option<f64>; 3]>,
 }
 
 /// How long a run is, and how the hand turns the tool.
@@ -155,6 +163,7 @@ pub fn run(
 ) -> Result<Trace, LinkError> {
     let Span { rate, ticks, enable_at, tool } = span;
     let mut samples = Vec::with_capacity(ticks as usize);
+    let mut confirmed = link.joints_seen().map(|_| [None; 3]);
     for tick in 0..ticks {
         let sensors = Sensors { tick, counts: plant.counts(), enable: tick >= enable_at };
         let (time, probe) = (plant.time(), plant.position());
@@ -162,9 +171,12 @@ pub fn run(
             None => link.exchange(&sensors)?,
             Some(tool) => link.exchange_with_wrist(&WristSensors { arm: sensors, wrist: tool.counts(time) })?,
         };
+        for (when, seen) in confirmed.iter_mut().flatten().zip(link.joints_seen().into_iter().flatten()) {
+            *when = when.or(seen.then_some(time));
+        }
         samples.push(Sample { time, sensors, report, probe });
         plant.advance(report.duties);
         progress(tick + 1);
     }
-    Ok(Trace { rate, samples })
+    Ok(Trace { rate, samples, confirmed })
 }

@@ -67,6 +67,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     };
     let mut figures = scene.walls();
     figures.extend(Summary::new(&run.trace).rows());
+    figures.extend(scene.withheld(&run.trace));
     figures.extend(run.sizes);
     // What the page has no device or body for is in the report alone.
     let recorded = scene.recording(&run.trace, &run.on);

@@ -431,6 +431,28 @@ impl Scene {
         }
     }
 
+    /// For how long the polarity check withheld the force of a run, and when each joint was confirmed, in words.
+    pub fn withheld(&self, trace: &Trace) -> Option<(&'static str, String)> {
+        self.protection?.polarity?;
+        let confirmed = trace.confirmed?;
+        let asked = f64::from(self.enable_at) / trace.rate;
+        let each = confirmed.iter().zip(["a", "b", "c"]).map(|(when, joint)| match when {
+            Some(when) => format!("{joint} confirmed after {:.2} s", when - asked),
+            None => format!("{joint} not confirmed"),
+        });
+        let each = each.collect::<Vec<_>>().join(", ");
+        let last = confirmed.into_iter().try_fold(asked, |last, when| Some(last.max(when?)));
+        let until = last.unwrap_or(trace.samples.len() as f64 / trace.rate) - asked;
+        let remedy = if last.is_some() {
+            ""
+        } else {
+            ", to the end: a joint is confirmed while the probe presses on the surface, and gravity compensation is \
+             withheld too, so the links hang from the hand; a longer run (--seconds), another place (--at), or without \
+             --protected"
+        };
+        Some(("polarity check", format!("{each}; force withheld for {until:.2} s{remedy}")))
+    }
+
     /// The model file's name, without its directory.
     pub fn model_name(&self) -> &str {
         &self.file.name

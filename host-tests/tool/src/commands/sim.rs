@@ -33,6 +33,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let trace = run_on_host(&arguments.scene, &scene)?;
     scene.walls().iter().for_each(|(name, value)| println!("  {name:<20} {value}"));
     print!("{}", Summary::new(&trace));
+    scene.withheld(&trace).iter().for_each(|(name, value)| println!("  {name:<20} {value}"));
     if let Some(path) = &arguments.csv {
         write_csv(&trace, &scene, path).with_context(|| format!("cannot write {}", path.display()))?;
         println!("  {:<20} {}", "recorded to", path.display());

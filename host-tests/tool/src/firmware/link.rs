@@ -56,6 +56,11 @@ pub trait Link {
     /// If none came, or something else.
     fn receive(&mut self) -> Result<Report, LinkError>;
 
+    /// Which joints the polarity check has seen to follow their motors; `None` where there is none or it is not known.
+    fn joints_seen(&self) -> Option<[bool; 3]> {
+        None
+    }
+
     /// Sends a frame of sensors.
     ///
     /// # Errors

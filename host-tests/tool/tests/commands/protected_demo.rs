@@ -59,3 +59,20 @@ fn every_protected_demo_is_felt_and_no_alarm() {
         demos(device, &MODELS, 1..=3);
     }
 }
+
+#[test]
+fn a_run_that_ends_before_all_polarities_are_confirmed_says_so_and_for_how_long() {
+    let withheld = |seconds: &str| {
+        let Demo { options } = Demo::parse_from(["demo", "--seconds", seconds, "--protected"]);
+        let scene = options.scene().unwrap();
+        let trace = run_on_host(&options, &scene).unwrap();
+        let words = scene.withheld(&trace).expect("a polarity check").1;
+        (words, Summary::new(&trace).largest_force)
+    };
+    let (short, force) = withheld("0.2");
+    // The pulses alone: below a quarter of 5 N.
+    assert!(force < 1.25 && short.contains("a not confirmed, b not confirmed, c not confirmed"), "{short}");
+    assert!(short.contains("force withheld for 0.10 s, to the end"), "{short}");
+    let (whole, force) = withheld("2");
+    assert!(force > 1.0 && !whole.contains("not confirmed") && !whole.contains("to the end"), "{whole}");
+}
