@@ -24,7 +24,8 @@ const WEAKEST: [f64; 3] = [0.0, 2.0, 8.0];
 /// Finds the stiffest and most damped wall of a device: a table, and a plot with the passive bound.
 ///
 /// The table is along z at the middle of the workspace (two joints: y, one: x); the weakest direction of the workspace
-/// follows.
+/// follows. The last line is the value for `max_stiffness` in the device file: half of the limit with the rendering
+/// recommended for the device, in the weakest direction.
 #[derive(Args, Debug)]
 pub struct Arguments {
     /// Device: a name, your own file (my.toml), or `all`.
@@ -104,6 +105,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     }
     write_whole(&arguments.plot, plot(&slice, &limits).as_bytes())?;
     println!("plot: {}", arguments.plot.display());
+    println!("{}", summary::answer(device, &rates));
     Ok(ExitCode::SUCCESS)
 }
 

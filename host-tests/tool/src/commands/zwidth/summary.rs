@@ -2,7 +2,8 @@
 
 use super::sweeping::{best, sweep_with_bar};
 use crate::devices::ShippedDevice;
-use palpate_sim::zwidth::{Loop, Slice, SoftWall, in_words};
+use palpate::servo::recommended::Recommended;
+use palpate_sim::zwidth::{Loop, Slice, SoftWall, in_words, max_stiffness};
 
 /// The delay of the simulated devices, periods: a tick's duty takes effect at the next.
 const DELAY: f64 = 1.0;
@@ -49,6 +50,27 @@ pub fn print(devices: &[&ShippedDevice], rates: &[f64], like: Loop, soft: Option
     Ok(())
 }
 
+/// The maximum stiffness with the rendering recommended for a device, at 4 kHz or the first of the rates, and half of it
+/// as the entry of the device file: the simulation assumes what the file does not state. A stiffer wall than 10,000 N/m
+/// is not looked at in `palpate feel --clean` either.
+pub(super) fn answer(device: &ShippedDevice, rates: &[f64]) -> String {
+    let Recommended { settings, rendering } = device.recommended();
+    let rate = rates.iter().copied().find(|rate| *rate == 4_000.0).or(rates.first().copied()).unwrap_or(4_000.0);
+    let corner = f64::from(settings.velocity_corner_hz);
+    let servo = Loop { rate, delay_periods: DELAY, velocity: rendering.velocity, corner, ease: rendering.ease };
+    let (place, slice) =
+        weakest(device).unwrap_or_else(|| ("in the middle of the workspace".to_owned(), Slice::of(device)));
+    let damping = settings.damping_n_s_per_m;
+    let most = max_stiffness(&slice, damping.into(), &servo);
+    let entry = (10.0 * (0.05 * most).floor()).min(10_000.0);
+    format!(
+        "recommended rendering (smooth: position between counts, {corner} Hz; eased), {damping} N·s/m, {} kHz, weakest \
+         direction {place}: up to {} N/m\nmax_stiffness = {entry:.1}   # half of it, a gain margin of 2; then the bench",
+        rate / 1_000.0,
+        in_words(&slice, most)
+    )
+}
+
 /// Where and along what an undamped wall of a device is weakest, and its slice there.
 pub(super) fn weakest(device: &ShippedDevice) -> Option<(String, Slice)> {
     let ([x, y, z], [along_x, along_y, along_z], slice) = Slice::weakest(device)?;
@@ -79,4 +101,28 @@ fn print_row(name: &str, slice: &Slice, rates: &[f64], like: Loop) -> anyhow::Re
         println!("BELOW THE PASSIVE BOUND: {low:?}");
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::devices::own_device;
+    use palpate_sim::devices::{OwnDevice, named};
+
+    #[test]
+    fn the_entry_holds_what_is_recommended_and_falls_with_coarser_encoders() {
+        let entry = |counts: f64| {
+            let mut file = named("woodenhaptics-2016").and_then(|device| device.file()).expect("a file of it");
+            file.joint.iter_mut().for_each(|joint| joint.encoder.counts = counts);
+            let device = own_device(&OwnDevice::new(file, "arm.toml").expect("a device"), "arm.toml");
+            let answer = answer(device, &[1_000.0, 4_000.0]);
+            let entry = answer.lines().last().and_then(|line| line.strip_prefix("max_stiffness = "));
+            let entry = entry.and_then(|entry| entry.split(' ').next()).and_then(|entry| entry.parse::<f64>().ok());
+            assert!(answer.contains(" 4 kHz, "), "{answer}");
+            entry.expect("an entry of the file")
+        };
+        let [fine, coarse] = [2_000.0, 250.0].map(entry);
+        assert!((500.0..=10_000.0).contains(&fine), "{fine}");
+        assert!(coarse < fine, "{coarse} {fine}");
+    }
 }
