@@ -77,7 +77,10 @@ pub const fn led_torque(share: f32) -> f32 {
     }
 }
 // No heat is counted meanwhile: the limit is the motor's continuous torque.
-const _: () = assert!(led_torque(JOG.share) <= PROTECTION.motors[0].continuous * MOTOR.motors[0].torque_at_full_n_m);
+const _: () = assert!(
+    led_torque(JOG.share) <= PROTECTION.motors[0].continuous * MOTOR.motors[0].torque_at_full_n_m,
+    "the field that records the cogging has more than the motor's continuous torque: lower JOG.share"
+);
 
 /// Torque that is let go of in a second when another feel is chosen, N·m: all of it in a twentieth.
 pub const LET_GO: f32 = 1.2;
