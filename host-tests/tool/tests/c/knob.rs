@@ -224,7 +224,7 @@ fn a_dial_whose_feel_is_changed_at_random_has_the_bits_of_rust_and_makes_no_step
         }
         let _ = servo.tick(&mut state, Input::Sensors { counts: [Counts(counts)], enable });
         let [duty] = state.duties();
-        let (duty, dial) = (i32::from(duty.0), KNOB.dial(state.witness()));
+        let (duty, dial) = (i32::from(duty.0), KNOB.dial(state.witness(), state.probe(), state.phase()));
         if within >= CHANGED_AT && state.fade() == 1.0 && tick < JUMPS_AT {
             step = step.max((duty - before).abs());
         }
