@@ -30,7 +30,7 @@ fn devices() -> impl Iterator<Item = (&'static ShippedDevice, OwnDevice)> {
 
 /// Eight steps of the plant a tick: what is found takes many ticks each.
 fn lab(own: &OwnDevice, mut planted: Planted) -> Lab {
-    planted.plant = planted.plant.in_sub_steps(4);
+    planted.plant = planted.plant.in_sub_steps(8);
     let world = World::shared(planted).expect("a bench");
     let line = Box::new(HostLine::new(own, &world).expect("a device"));
     let device = Commissioned::connect(line, Box::new(KeyHeld)).expect("it answers");
