@@ -120,7 +120,7 @@ impl Manifold {
 
 impl ToolWitness {
     /// The contacts whose gap a translation of `reach_m` and a rotation of `reach_rad` can close.
-    pub fn collect(
+    pub(super) fn collect(
         &self,
         manifold: &mut Manifold,
         body: &Body,

@@ -7,9 +7,10 @@
 
 mod asked;
 mod console;
+mod emulated;
 mod log;
 
 pub use asked::{Asked, Misunderstood};
 pub use console::{Button, Console, Press, Step};
-pub use console::{Emulated, at_knob};
+pub use emulated::{Emulated, at_knob};
 pub use log::Log;
