@@ -296,14 +296,16 @@ impl<P: Patch> Commanded for OnePatch<P> {}
 impl Commanded for Knob {
     fn apply(&self, witness: &mut KnobWitness, command: &Command) -> Result<(), SceneError> {
         match command {
-            Command::Choose { index }
-                if usize::from(*index) < self.feels().len() + usize::from(witness.own().is_some()) =>
-            {
+            Command::Choose { index } => {
+                // A table has 1 to 255 entries.
+                let last = (self.feels().len() - usize::from(witness.own().is_none())) as u8;
+                if *index > last {
+                    return Err(SceneError::Feel(KnobError::Missing { asked: *index, last }));
+                }
                 self.choose(witness, *index);
                 Ok(())
             }
             Command::Feel(part) => self.set(witness, *part).map_err(SceneError::Feel),
-            Command::Choose { index } => Err(SceneError::Missing(*index)),
             _ => Err(SceneError::NotOffered),
         }
     }

@@ -91,6 +91,13 @@ pub enum KnobError {
     },
     /// A stored feel is restored before the first tick only.
     Late,
+    /// A feel is chosen that does not exist.
+    Missing {
+        /// Its index.
+        asked: u8,
+        /// The last index that exists.
+        last: u8,
+    },
 }
 
 /// How far a part of a feel that a host sets may take the dial, radians: an eighth of a turn.
@@ -108,6 +115,7 @@ impl KnobError {
             Self::LetGo => "the torque released per second must be positive and finite",
             Self::Far { .. } => "a part would turn the dial by more than an eighth of a turn",
             Self::Late => "a stored feel is restored before the first tick only",
+            Self::Missing { .. } => "there is no such feel",
         }
     }
 }
@@ -135,6 +143,7 @@ impl fmt::Display for KnobError {
                 "it would turn the dial by {asked:.2} rad, and the limit is an eighth of a turn, {MAX_RETURN_RAD:.2} rad: \
                  turn the dial there first, or give a nearer position"
             ),
+            Self::Missing { asked, last } => write!(formatter, "there is no feel {asked}: choose 0 to {last}"),
             _ => formatter.write_str(self.message()),
         }
     }
@@ -234,10 +243,12 @@ impl Knob {
             return Err(KnobError::Feel(error));
         }
         let [stiffness, damping, torque] = [feel.stiffness(), feel.greatest_damping(), feel.torque_between_ends()];
-        // Written so that NaN is refused.
-        let bears_stiffness = stiffness <= self.max_stiffness;
-        let bears_damping = damping <= self.max_damping;
-        let bears_torque = torque <= self.most;
+        // The limits are products: a number equal to one but for their rounding is within it. Written so that NaN is
+        // refused.
+        const ROUNDED: f32 = 1.0 + 4.0 * f32::EPSILON;
+        let bears_stiffness = stiffness <= self.max_stiffness * ROUNDED;
+        let bears_damping = damping <= self.max_damping * ROUNDED;
+        let bears_torque = torque <= self.most * ROUNDED;
         if !bears_stiffness {
             return Err(KnobError::Stiffness { asked_n_m_per_rad: stiffness, limit_n_m_per_rad: self.max_stiffness });
         }

@@ -3,7 +3,7 @@
 use crate::knob::Rig;
 use palpate::render::{Detents, DialFriction, Ends, Feel, FeelPart, Notch, Spring, Wave};
 use palpate::scene::{BodyPose, Command, SceneError};
-use palpate::servo::{Heartbeat, ResetReason};
+use palpate::servo::{Heartbeat, KnobError, ResetReason};
 use palpate::wire::frame::{MAX_FRAME, Received, Receiver, pack};
 use palpate::wire::{Answer, DeviceMessage, Hello, HostMessage, KeepError, PROTOCOL, Refused, Upload};
 use palpate_bench::Idle;
@@ -83,12 +83,41 @@ fn a_host_chooses_what_is_felt_and_is_told_what_there_is_not() {
     let last = device.feel();
     for index in [FEELS.len() as u8, 255] {
         let refused = device.order(u16::from(index) + 100, Command::Choose { index });
-        assert_eq!(refused, Some(Refused::Command(SceneError::Missing(index))));
+        let missing = KnobError::Missing { asked: index, last: FEELS.len() as u8 - 1 };
+        assert_eq!(refused, Some(Refused::Command(SceneError::Feel(missing))));
     }
     for (number, order) in (500..).zip([Command::Push { force: [1.0; 3] }, Command::Limit { force: 100.0 }]) {
         assert_eq!(device.order(number, order), Some(Refused::Command(SceneError::NotOffered)));
     }
     assert_eq!((device.feel(), device.rig.fault(), device.rig.enabled()), (last, None, true));
+}
+
+#[test]
+fn a_dial_that_is_let_go_of_comes_to_rest_at_the_preset_s_limits_and_rings_without_damping() {
+    // N·m·s/rad, and the fastest that the shaft turns once it should be at rest, rad/s.
+    for (damping, fastest) in [(0.0, 3.0..f64::INFINITY), (6e-4, 0.0..0.3), (3.2e-3, 0.0..0.3)] {
+        let mut device = Device::new(Rig::running());
+        device.send(&HostMessage::Hello { protocol: PROTOCOL });
+        (0..4).for_each(|_| device.tick());
+        let rest_rad = device.rig.bench.state().witness().angle().expect("aligned");
+        let spring = Spring { stiffness_n_m_per_rad: 1.6, rest_rad, max_torque_n_m: 0.056 };
+        let parts = [FeelPart::Free, FeelPart::Damping(damping), FeelPart::Spring(Some(spring))];
+        for (number, part) in (1..).zip(parts) {
+            assert_eq!(device.order(number, Command::Feel(part)), None);
+        }
+        let aim = device.rig.world.borrow().dial.angle() + 0.1;
+        device.rig.set(|world| world.dial.hold(Fingers::clamp(aim)));
+        (0..2_000).for_each(|_| device.tick());
+        device.rig.set(|world| world.dial.hold(Fingers::NONE));
+        (0..8_000).for_each(|_| device.tick());
+        let rates = (0..4_000).map(|_| {
+            device.tick();
+            device.rig.world.borrow().dial.rate().abs()
+        });
+        let turned = rates.fold(0.0, f64::max);
+        println!("1,600 mN·m/rad, {} mN·m·s/rad: {turned:.2} rad/s", 1e3 * damping);
+        assert!(fastest.contains(&turned) && device.rig.fault().is_none(), "{damping}: {turned}");
+    }
 }
 
 #[test]
