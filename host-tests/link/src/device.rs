@@ -40,6 +40,8 @@ pub struct Device<L = Port> {
     pub(crate) dial: Option<(Dial, Instant)>,
     pub(crate) modes: Option<(Modes, Instant)>,
     pub(crate) dials: u64,
+    /// As [`Self::all_views`].
+    pub(crate) all_dials: Option<Vec<Dial>>,
     pub(crate) record: Option<Record>,
     /// Of a device that is being set up.
     pub(crate) reading: Option<Reading>,
@@ -86,6 +88,7 @@ impl<L: Line> Device<L> {
             dial: None,
             modes: None,
             dials: 0,
+            all_dials: None,
             record: None,
             reading: None,
             calibrated: None,
@@ -260,6 +263,9 @@ impl<L: Line> Device<L> {
             DeviceMessage::Dial(dial) => {
                 self.dial = Some((dial, self.line.now()));
                 self.dials += 1;
+                if let Some(all) = self.all_dials.as_mut().filter(|all| all.len() < MOST) {
+                    all.push(dial);
+                }
             }
             DeviceMessage::Modes(modes) => self.modes = Some((modes, self.line.now())),
             // Of a device that is being set up: `palpate commission` reads them.

@@ -59,6 +59,11 @@ impl<L: Line> Device<L> {
         }
     }
 
+    /// All reports of the dial that came since the last call, in their order; the first call starts to keep them.
+    pub fn take_dials(&mut self) -> Vec<Dial> {
+        self.all_dials.replace(Vec::new()).unwrap_or_default()
+    }
+
     /// How many times the knob has told of its dial.
     pub const fn dials(&self) -> u64 {
         self.dials

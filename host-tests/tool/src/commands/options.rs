@@ -147,7 +147,10 @@ impl SceneOptions {
         };
         let body_origin = self.at.map_or_else(|| -felt.middle(), |at| (at + centre).as_vec3());
         let Chosen::Arm(device) = self.device else {
-            bail!("the knob touches no surface: cargo palpate demo --device knob")
+            bail!(
+                "--device knob: this command renders a surface, and a knob has none; use `palpate demo --device knob`, or \
+                 `palpate talk --device knob --emulator m4` and there `watch`"
+            )
         };
         if device.source.is_none() {
             bail!("{} has too few joints to feel a surface in space; see zwidth", device.name);

@@ -36,12 +36,13 @@ pub struct Arguments {
     /// The boards' loop compiled for the host, with the same arm
     #[arg(long, group = "where")]
     host: bool,
-    /// Log (CSV): tick, position, velocity, force, gap, feature, phase and fault
+    /// Log (CSV): tick, position, velocity, force, gap, feature, phase and fault; of a knob, degrees and torque
     #[arg(long, value_name = "OUT.csv")]
     log: Option<PathBuf>,
-    /// Rows of --log a second, Hz, up to the servo rate; each needs 63 bytes of the line, 1 kHz USB
-    #[arg(long, default_value_t = 1_000.0, requires = "log", value_name = "HZ")]
-    log_rate: f64,
+    /// Rows of --log a second, Hz, up to the servo rate; each needs 63 bytes of the line, 1 kHz USB; default: 1000, of a
+    /// knob 100, its most
+    #[arg(long, requires = "log", value_name = "HZ")]
+    log_rate: Option<f64>,
     /// The emulated or simulated device
     #[arg(long, value_enum, default_value = "arm")]
     device: Kind,
@@ -93,7 +94,7 @@ fn talk(
     line: Box<dyn Line>,
     button: Option<Button>,
     knob: Option<&SharedKnob>,
-    log: Option<(&Path, f64)>,
+    log: Option<(&Path, Option<f64>)>,
 ) -> anyhow::Result<ExitCode> {
     let mut device = Device::over(line)?;
     if let Some(button) = &button {

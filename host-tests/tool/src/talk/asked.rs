@@ -102,7 +102,7 @@ pub enum Misunderstood {
 /// Every command: its syntax, and its effect.
 pub const FORMS: [(&str, &str); 36] = [
     ("who", "what the device says of itself"),
-    ("where", "tip, velocity, body, gap, force, phase and fault as they are now"),
+    ("where", "tip, velocity, body, gap, force, phase and fault as they are now; of a knob its dial"),
     ("watch [SECONDS]", "the same ten times a second, for 5 s"),
     ("push X Y Z [SECONDS]", "a force in N beside that of the bodies, for 1 s; `push 0 0 0` ends it"),
     ("place BODY X Y Z [AX AY AZ DEGREES]", "puts a body's origin there, in mm, turned about this axis"),

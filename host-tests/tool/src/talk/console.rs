@@ -6,7 +6,7 @@ use palpate::servo::{Fault, Phase};
 use palpate::track::Contact;
 use palpate::wire::hold;
 use palpate_bake::file::BakedFile;
-use palpate_link::{BodyPose, Command, Device, Dial, Error, Line, Modes, View};
+use palpate_link::{BodyPose, Command, Device, Dial, Error, Hello, Line, Modes, View};
 use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::Path;
@@ -88,9 +88,10 @@ impl<'a, L: Line> Console<'a, L> {
     ///
     /// # Errors
     /// A rate above the servo's, or a file that cannot be written.
-    pub fn with_log(mut self, path: &Path, rate: f64) -> anyhow::Result<Self> {
-        self.log = Some(Log::create(path, self.device.hello().rate.into(), rate)?);
+    pub fn with_log(mut self, path: &Path, rate: Option<f64>) -> anyhow::Result<Self> {
+        self.log = Some(Log::create(path, &self.device.hello(), rate)?);
         self.device.take_views();
+        self.device.take_dials();
         Ok(self)
     }
 
@@ -99,8 +100,11 @@ impl<'a, L: Line> Console<'a, L> {
     /// # Errors
     /// A file that cannot be written.
     pub fn end_log(&mut self, output: &mut dyn Write) -> anyhow::Result<()> {
-        if let Some(mut log) = self.log.take() {
-            log.take(&self.device.take_views())?;
+        // A device that is gone has no newer view.
+        if let Ok(view) = self.device.view(Duration::ZERO) {
+            self.write_log(&view)?;
+        }
+        if let Some(log) = self.log.take() {
             writeln!(output, "{}", log.end()?)?;
         }
         Ok(())
@@ -121,9 +125,7 @@ impl<'a, L: Line> Console<'a, L> {
             Err(Error::BeganAnew { .. }) => return self.begin_anew(output),
             Err(error) => return Err(error.into()),
         };
-        if let Some(log) = &mut self.log {
-            log.take(&self.device.take_views())?;
-        }
+        self.write_log(&view)?;
         let now = self.device.now();
         self.waits = self.waits.filter(|until| now < *until);
         if let Some((force, until, last)) = self.pushes {
@@ -137,7 +139,8 @@ impl<'a, L: Line> Console<'a, L> {
         if let Some((until, last)) = self.watches {
             if last.is_none_or(|last| now.saturating_duration_since(last) >= SHOWS) {
                 self.watches = Some((until, Some(now)));
-                writeln!(output, "{}{}", said(&view), deformed(self.device.modes()?))?;
+                let line = self.said(&view)?;
+                writeln!(output, "{line}")?;
             }
             self.watches = self.watches.filter(|_| now < until);
         }
@@ -176,7 +179,8 @@ impl<'a, L: Line> Console<'a, L> {
             }
             Asked::Where => {
                 let view = self.device.view(SHOWS)?;
-                writeln!(output, "{}{}", said(&view), deformed(self.device.modes()?))?;
+                let line = self.said(&view)?;
+                writeln!(output, "{line}")?;
                 return Ok(Step::GoesOn);
             }
             Asked::Watch(seconds) => {
@@ -270,12 +274,30 @@ impl<'a, L: Line> Console<'a, L> {
             (flash, kept) => format!(", and {flash} bytes of flash, which keep the body with the CRC {kept:08x}"),
         };
         let [rate, force] = [hello.rate, hello.max_force];
-        let device = if force > 0.0 {
-            format!("a device of {rate} Hz, {force} N at most, {memory}{flash}")
-        } else {
+        let device = if is_knob(&hello) {
             format!("a knob of {rate} Hz; `dial` shows its angle and torque")
+        } else {
+            format!("a device of {rate} Hz, {force} N at most, {memory}{flash}")
         };
         format!("{device}; protocol {}", hello.protocol)
+    }
+
+    /// The loop in a line: of a knob its dial.
+    fn said(&mut self, view: &View) -> Result<String, Error> {
+        Ok(if is_knob(&self.device.hello()) {
+            format!("{}; {}", turned(&self.device.dial(Duration::ZERO)?), phase(view))
+        } else {
+            format!("{}{}", said(view), deformed(self.device.modes()?))
+        })
+    }
+
+    fn write_log(&mut self, view: &View) -> anyhow::Result<()> {
+        let Some(log) = &mut self.log else { return Ok(()) };
+        if is_knob(&self.device.hello()) {
+            log.take_dials(&self.device.take_dials(), view)
+        } else {
+            log.take(&self.device.take_views())
+        }
     }
 
     fn begin_anew(&mut self, output: &mut dyn Write) -> anyhow::Result<()> {
@@ -335,6 +357,16 @@ fn deformed(modes: Option<Modes>) -> String {
     format!("; modes{shown} mm")
 }
 
+/// Whether it is a knob: it has a torque and no force.
+pub(super) fn is_knob(hello: &Hello) -> bool {
+    hello.max_force == 0.0
+}
+
+/// The dial's angle with its turns.
+pub(super) fn degrees(dial: &Dial) -> f64 {
+    360.0 * f64::from(dial.turns) + f64::from(dial.angle).to_degrees()
+}
+
 /// The dial in a line.
 fn turned(dial: &Dial) -> String {
     let end = match dial.end {
@@ -347,9 +379,9 @@ fn turned(dial: &Dial) -> String {
         2 => "; a kept feel is damaged or beyond this device's limits: set it and keep it again, or forget it",
         _ => "",
     };
-    let degrees = 360.0 * f64::from(dial.turns) + f64::from(dial.angle).to_degrees();
     format!(
-        "dial at {degrees:.1} degrees, {:.2} rad/s, {:.1} mN·m; detent {}{end}; feel {}{kept}",
+        "dial at {:.1} degrees, {:.2} rad/s, {:.1} mN·m; detent {}{end}; feel {}{kept}",
+        degrees(dial),
         dial.rate,
         1e3 * dial.torque,
         dial.detent,
@@ -371,6 +403,18 @@ fn said(view: &View) -> String {
         Some(Contact::InFront) => "in front",
         Some(Contact::Behind) | None => "behind",
     };
+    format!(
+        "at {} mm, {} mm/s; body {}, {contact}, gap {:.2} mm; force {force} N; {}",
+        millimetres(view.position),
+        millimetres(view.velocity),
+        view.body,
+        view.gap * 1e3,
+        phase(view),
+    )
+}
+
+/// Phase, fault and what keeps the motors off.
+fn phase(view: &View) -> String {
     let phase = match Phase::ALL.into_iter().find(|phase| *phase as u8 == view.phase) {
         Some(Phase::Running) => "running",
         Some(Phase::Armed) => "armed",
@@ -380,11 +424,5 @@ fn said(view: &View) -> String {
     };
     let fault = Fault::from_code(view.fault).map_or_else(String::new, |fault| format!(": {fault}"));
     let holds: String = hold::reasons(view.hold).map(|why| format!("; {why}")).collect();
-    format!(
-        "at {} mm, {} mm/s; body {}, {contact}, gap {:.2} mm; force {force} N; {phase}{fault}{holds}",
-        millimetres(view.position),
-        millimetres(view.velocity),
-        view.body,
-        view.gap * 1e3,
-    )
+    format!("{phase}{fault}{holds}")
 }

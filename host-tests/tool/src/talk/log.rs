@@ -1,59 +1,79 @@
 //! The log of a device: its views at a stated rate, as rows of a CSV file, with the rows that are missing counted.
 
+use super::console::{degrees, is_knob};
 use anyhow::Context as _;
-use palpate_link::View;
+use palpate_link::{DIALS_HZ, Dial, Hello, View};
 use std::fs::File;
 use std::path::Path;
 
 /// Bytes of a view on the line at most, with its frame: a log of 1 kHz needs 63 kB/s.
 const BYTES: u32 = 63;
 
-/// A log that grows. SI units, the point in the scene's frame.
+/// A log that grows. Of an arm in SI units, the point in the scene's frame; of a knob its dial, in degrees.
 #[derive(Debug)]
 pub struct Log {
     writer: csv::Writer<File>,
     /// Servo rate and the log's own, Hz.
     rates: [f64; 2],
-    /// The row that came last and the first, as its number at the log's rate since the device's start.
+    /// The row that came last, as its number at the log's rate since the device's start.
     last: Option<u64>,
     rows: u64,
     missing: u64,
 }
 
+/// The columns of every log.
+const FIRST: [&str; 6] = ["tick", "time", "missing", "phase", "fault", "hold"];
+const ARM: [&str; 13] = [
+    "body",
+    "contact",
+    "feature",
+    "gap",
+    "position_x",
+    "position_y",
+    "position_z",
+    "velocity_x",
+    "velocity_y",
+    "velocity_z",
+    "force_x",
+    "force_y",
+    "force_z",
+];
+const KNOB: [&str; 6] = ["feel", "detent", "end", "angle_degrees", "rate_degrees_per_s", "torque_mn_m"];
+
 impl Log {
-    /// A new file, for a device of this servo rate, Hz, and rows at `rate`, Hz.
+    /// A new file, for a device and rows at `rate`, Hz; without one, 1 kHz, or the rate at which a knob reports its dial.
     ///
     /// # Errors
-    /// A rate above the servo's, or a file that cannot be written.
-    pub fn create(path: &Path, servo_rate: f64, rate: f64) -> anyhow::Result<Self> {
-        anyhow::ensure!(
-            rate >= 1.0 && rate <= servo_rate,
-            "--log-rate is {rate} Hz; set 1 Hz to the servo rate, {servo_rate} Hz"
-        );
+    /// A rate above the device's, or a file that cannot be written.
+    pub fn create(path: &Path, hello: &Hello, rate: Option<f64>) -> anyhow::Result<Self> {
+        let (servo_rate, is_knob) = (f64::from(hello.rate), is_knob(hello));
+        let (most, what, columns) = if is_knob {
+            (f64::from(DIALS_HZ), "the rate of a knob's reports", KNOB.as_slice())
+        } else {
+            (servo_rate, "the servo rate", ARM.as_slice())
+        };
+        let rate = rate.unwrap_or(most.min(1_000.0));
+        anyhow::ensure!(rate >= 1.0 && rate <= most, "--log-rate is {rate} Hz; set 1 Hz to {what}, {most} Hz");
         let mut writer =
             csv::Writer::from_path(path).with_context(|| format!("{}: cannot be written", path.display()))?;
-        writer.write_record([
-            "tick",
-            "time",
-            "missing",
-            "phase",
-            "fault",
-            "hold",
-            "body",
-            "contact",
-            "feature",
-            "gap",
-            "position_x",
-            "position_y",
-            "position_z",
-            "velocity_x",
-            "velocity_y",
-            "velocity_z",
-            "force_x",
-            "force_y",
-            "force_z",
-        ])?;
+        writer.write_record([FIRST.as_slice(), columns].concat())?;
         Ok(Self { writer, rates: [servo_rate, rate], last: None, rows: 0, missing: 0 })
+    }
+
+    /// The start of a row, by tick, unless its period has one.
+    fn start(&mut self, tick: u32) -> Option<Vec<String>> {
+        let [servo_rate, rate] = self.rates;
+        // A tick on the border belongs to the period that it starts.
+        let period = (f64::from(tick) * rate / servo_rate + 1e-9) as u64;
+        let missing = match self.last {
+            Some(last) if period == last => return None,
+            Some(last) if period > last => period - last - 1,
+            // The first row, or a device that was reset.
+            _ => 0,
+        };
+        self.last = Some(period);
+        (self.rows, self.missing) = (self.rows + 1, self.missing + missing);
+        Some(vec![tick.to_string(), (f64::from(tick) / servo_rate).to_string(), missing.to_string()])
     }
 
     /// Takes the views that came: of those of one period of the log the first, as a row.
@@ -61,25 +81,28 @@ impl Log {
     /// # Errors
     /// A file that cannot be written.
     pub fn take(&mut self, views: &[View]) -> anyhow::Result<()> {
-        let [servo_rate, rate] = self.rates;
         for view in views {
-            let time = f64::from(view.tick) / servo_rate;
-            // A tick on the border belongs to the period that it starts.
-            let period = (f64::from(view.tick) * rate / servo_rate + 1e-9) as u64;
-            let missing = match self.last {
-                Some(last) if period == last => continue,
-                Some(last) if period > last => period - last - 1,
-                // The first row, or a device that was reset.
-                _ => 0,
-            };
-            self.last = Some(period);
-            (self.rows, self.missing) = (self.rows + 1, self.missing + missing);
-            let mut row = vec![view.tick.to_string(), time.to_string(), missing.to_string()];
+            let Some(mut row) = self.start(view.tick) else { continue };
             row.extend([view.phase, view.fault, view.hold, view.body, view.contact].map(|number| number.to_string()));
             row.extend([view.feature.to_string(), view.gap.to_string()]);
             row.extend(
                 [view.position, view.velocity, view.force].as_flattened().iter().map(|number| number.to_string()),
             );
+            self.writer.write_record(row)?;
+        }
+        Ok(())
+    }
+
+    /// The same of a knob, whose newest view has the phase.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn take_dials(&mut self, dials: &[Dial], view: &View) -> anyhow::Result<()> {
+        for dial in dials {
+            let Some(mut row) = self.start(dial.tick) else { continue };
+            row.extend([view.phase, view.fault, view.hold, dial.feel].map(|number| number.to_string()));
+            row.extend([dial.detent.to_string(), dial.end.to_string(), degrees(dial).to_string()]);
+            row.extend([dial.rate.to_degrees(), 1e3 * dial.torque].map(|number| number.to_string()));
             self.writer.write_record(row)?;
         }
         Ok(())
@@ -125,7 +148,7 @@ mod tests {
         while device.view(SILENCE).unwrap().hold & hold::RELEASE_FIRST != 0 {}
         hand.enables(true);
         device.line().own_record();
-        let mut log = Log::create(&path, 4_000.0, 1_000.0).unwrap();
+        let mut log = Log::create(&path, &device.hello(), None).unwrap();
         device.take_views();
         let until = device.now() + Duration::from_secs(2);
         while device.now() < until {

@@ -82,7 +82,20 @@ fn a_knob_says_what_became_of_its_feel() {
     let angles: BTreeSet<_> = turns.iter().map(|line| line.split(' ').nth(2)).collect();
     let is_stopped = |line: &&str| line.contains(" 0.0 mN·m;") && line.ends_with("; stopped: stopped by hand");
     assert!(turns.len() > 3 && angles.len() > 3 && turns.iter().all(is_stopped), "{said}{complained}");
+    // Its place is an angle, everywhere.
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("log.csv");
+    let (_, said, complained) =
+        talk(&[&arguments[..], &["--log", path.to_str().unwrap()]].concat(), "free\nwait 1\nwhere\n");
+    let said = said.lines().find(|line| line.ends_with("; running")).unwrap_or_else(|| panic!("{said}{complained}"));
+    let now: f64 = said.split(' ').nth(2).unwrap().parse().unwrap();
+    let mut log = csv::Reader::from_path(path).unwrap();
+    let angle = log.headers().unwrap().iter().position(|name| name == "angle_degrees").unwrap();
+    let angles: Vec<f64> = log.into_records().map(|row| row.unwrap()[angle].parse().unwrap()).collect();
+    let last = angles.last().unwrap();
+    assert!(angles.len() > 90 && (last - now).abs() < 5.0 && last.abs() > 5.0, "{said}: {angles:?}");
     for (lines, says) in [
+        ("choose 9\n", "choose was refused by the device: there is no feel 9: choose 0 to 5"),
         ("keep-feel\n", "keep-feel was refused by the device: no feel was set since the last reset; set one first"),
         (
             "spring 0.3 31.25 0\n",

@@ -5,11 +5,12 @@
 use crate::byte_tables::{Row, hexadecimal, numbers, table, written};
 use crate::pages::{compare, text};
 use palpate::commission::CalibrationError;
+use palpate::render::{Detents, DialFriction, Ends, FeelPart, Notch, Spring, Wave};
 use palpate::wire::acceptance::{Finding, Request};
 use palpate::wire::frame::{MAX_FRAME, pack};
 use palpate::wire::{Calibrated, DeviceMessage, HostMessage, Report, Sensors};
 use serde::{Serialize, de::DeserializeOwned};
-use std::fmt::Debug;
+use std::fmt::{Debug, Write as _};
 
 const PAGE: &str = "docs/reference/wire.md";
 /// Rows that are no field of a struct: which variant follows, whether an option is there, and fields of tuples.
@@ -117,4 +118,97 @@ fn reasons_of_a_refused_calibration_have_their_documented_numbers() {
         let which: &[u8] = if packed.len() > 3 { &[7] } else { &[] };
         assert_eq!(*packed, [&[5, 2, number], which].concat(), "{error:?}");
     }
+}
+
+/// Rows of the parts of a feel: the number on the wire, the struct, and its fields in order.
+fn parts() -> String {
+    let wave = Wave { pitch_rad: 0.25, torque_n_m: 0.5, centre_rad: 0.75 };
+    let clicks = Detents {
+        pitch: 0.25,
+        stiffness: 0.5,
+        damping: 0.75,
+        snap: 1.25,
+        first: -1,
+        last: 2,
+        wall_stiffness: 1.5,
+        max_force: 1.75,
+    };
+    let spring = Spring { stiffness_n_m_per_rad: 0.25, rest_rad: 0.5, max_torque_n_m: 0.75 };
+    let ends = Ends { between_rad: [0.25, 0.5], stiffness_n_m_per_rad: 0.75, damping_n_m_s_per_rad: 1.25 };
+    let friction = DialFriction { torque_n_m: 0.25, whole_at_rad_per_s: 0.5 };
+    let notch = Notch { at_rad: 0.25, width_rad: 0.5, torque_n_m: 0.75 };
+    let parts = [
+        FeelPart::Detents(Some(wave)),
+        FeelPart::Clicks(Some(clicks)),
+        FeelPart::Texture(Some(wave)),
+        FeelPart::Spring(Some(spring)),
+        FeelPart::Ends(Some(ends)),
+        FeelPart::Damping(0.25),
+        FeelPart::Friction(Some(friction)),
+        FeelPart::Notch(Some(notch)),
+        FeelPart::Free,
+    ];
+    let mut rows =
+        String::from("| number | part | struct | fields in order, f32 but where stated |\n|---|---|---|---|\n");
+    for (number, part) in (0..).zip(parts) {
+        let shown = format!("{part:?}");
+        let (name, rest) = shown.split_once('(').unwrap_or((&shown, ""));
+        let is_optional = rest.starts_with("Some");
+        let of = rest.trim_start_matches("Some(").split_once(" {").map_or("", |(of, _)| of);
+        let fields = rest.split_once('{').map_or(rest, |(_, fields)| fields).trim_matches([' ', '}', ')']);
+        let (mut bytes, mut columns) = (vec![number], Vec::new());
+        bytes.extend(is_optional.then_some(1));
+        for field in fields.split(", ").filter(|field| !field.is_empty()) {
+            let (name, value) = field.split_once(": ").unwrap_or(("", field));
+            let value = value.trim_matches(['[', ']']);
+            let kind = if let Ok(integer) = value.parse::<i32>() {
+                bytes.extend(postcard::to_slice(&integer, &mut [0; 5]).expect("it fits").iter());
+                ", zig-zag"
+            } else {
+                bytes.extend(value.parse::<f32>().expect("a number").to_le_bytes());
+                ""
+            };
+            match columns.last_mut() {
+                _ if !name.is_empty() => columns.push(format!("`{name}`{}{kind}", unit_of(name))),
+                None => columns.push(unit_of("damping").trim_start().to_owned()),
+                Some(pair) => pair.push_str(" twice"),
+            }
+        }
+        let mut buffer = [0; MAX_FRAME];
+        assert_eq!(
+            hexadecimal(postcard::to_slice(&part, &mut buffer).expect("it fits")),
+            hexadecimal(&bytes),
+            "{shown}"
+        );
+        let _ = writeln!(rows, "| {number} | {} | {of} | {} |", name.to_lowercase(), columns.join(", "));
+    }
+    rows
+}
+
+/// From a name's ending, or of clicks, whose names have none.
+fn unit_of(name: &str) -> &'static str {
+    let endings = [
+        ("_n_m_s_per_rad", " N·m·s/rad"),
+        ("_n_m_per_rad", " N·m/rad"),
+        ("_rad_per_s", " rad/s"),
+        ("_rad", " rad"),
+        ("_n_m", " N·m"),
+        ("pitch", " rad"),
+        ("stiffness", " N·m/rad"),
+        ("damping", " N·m·s/rad"),
+        ("max_force", " N·m"),
+        ("snap", " pitches"),
+        ("first", ""),
+        ("last", ""),
+    ];
+    endings.into_iter().find(|(end, _)| name.ends_with(end)).unwrap_or_else(|| panic!("{name} has no unit")).1
+}
+
+#[test]
+fn every_part_of_a_feel_is_documented() {
+    const MARK: &str = "<!-- generated: parts of a feel, by the test wire_page -->\n\n";
+    let page = text(PAGE);
+    let (before, rest) = page.split_once(MARK).expect("a generated block");
+    let (_, after) = rest.split_once("\n<!-- end -->").expect("its end");
+    compare(PAGE, &format!("{before}{MARK}{}\n<!-- end -->{after}", parts()));
 }

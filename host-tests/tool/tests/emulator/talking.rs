@@ -54,7 +54,7 @@ fn a_log_of_an_emulated_board_has_the_values_of_its_ticks() {
     // It asks for a button that it has seen released.
     while device.view(SILENCE).expect("a view").hold & hold::RELEASE_FIRST != 0 {}
     button(Press::Down);
-    let mut log = Log::create(&path, 4_000.0, 1_000.0).expect("a log");
+    let mut log = Log::create(&path, &device.hello(), None).expect("a log");
     let (first, _) = device.line().take_probes();
     device.take_views();
     let until = device.now() + Duration::from_secs(2);
