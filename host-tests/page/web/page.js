@@ -43,7 +43,7 @@ export class Page {
     /** A device on a line, and what it says; see live.js. */
     this.live = null;
     /** Whether frames are drawn: a processor that does it alone has little time for all else. */
-    this.draws = true;
+    this.draws = location.hash !== "#undrawn";
     Object.assign(this, { frames: 0, rate: 60 });
   }
 

@@ -47,8 +47,6 @@ export class Room {
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFShadowMap;
     this.scene = new Scene();
-    const environment = new PMREMGenerator(this.renderer);
-    this.scene.environment = environment.fromScene(new RoomEnvironment(), 0.04).texture;
     this.scene.environmentIntensity = 0.42;
     this.camera = new PerspectiveCamera(32, 1, 0.01, 60);
     this.camera.up.set(0, 0, 1);
@@ -271,7 +269,11 @@ export class Room {
   /** Draws a frame, or only puts everything to where it would be drawn. */
   draw(draws) {
     this.orbit.update();
-    if (draws) return this.renderer.render(this.scene, this.camera);
+    if (draws) {
+      // Drawn itself, so not before anything is.
+      this.scene.environment ??= new PMREMGenerator(this.renderer).fromScene(new RoomEnvironment(), 0.04).texture;
+      return this.renderer.render(this.scene, this.camera);
+    }
     this.scene.updateMatrixWorld();
     this.camera.updateMatrixWorld();
   }

@@ -173,7 +173,7 @@ fn set_up(board: Board, progress: &Progress) -> anyhow::Result<()> {
 fn on_page(browser: &page::Browser, tool: &Path, times: &mut Times, words: &[String]) -> anyhow::Result<ExitCode> {
     let root = repository::root()?;
     let status = times.cargo_test(tool, |cargo: &mut Command| {
-        cargo.current_dir(root).args(["--locked", "--package", "palpate-page", "--target-dir", "target"]);
+        cargo.current_dir(root).args(["-p", "palpate-tool", "--test", "page"]);
         cargo.env("PALPATE_TOOL", tool).env("PALPATE_CHROMIUM", browser.path());
         // One browser at a time: each draws on all cores.
         cargo.args(["--", "--test-threads=1", "--nocapture"]).args(words);

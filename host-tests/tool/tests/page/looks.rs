@@ -35,7 +35,7 @@ const BAD: &str = "data:text/html,<body style='margin:0'><p style='position:abso
 fn no_words_of_reports_and_figures_are_covered_cut_small_or_pale() -> anyhow::Result<()> {
     let page = Page::empty()?;
     page.set_size([390, HEIGHT], 1.0)?;
-    page.tab.navigate_to(BAD)?.wait_until_navigated()?;
+    page.go(BAD)?;
     let seen = faults(&page, "the bad page")?.join("; ");
     for fault in ["over each other", "the page's side", "cut by DIV", "px high", "a contrast of", "cut by its plot"] {
         ensure!(seen.contains(fault), "{fault:?} is not found: {seen}");
@@ -47,7 +47,7 @@ fn no_words_of_reports_and_figures_are_covered_cut_small_or_pale() -> anyhow::Re
     palpate_in(folder.path(), &["feel", "--device", "phantom-premium", "--out", "feel"])?;
     let mut all = Vec::new();
     for report in ["demo.html", "knob.html", "feel/report.html"] {
-        page.tab.navigate_to(&format!("file://{}", path(report)))?.wait_until_navigated()?;
+        page.go(&format!("file://{}", path(report)))?;
         for width in WIDTHS {
             page.set_size([width, HEIGHT], 1.0)?;
             for scheme in SCHEMES {
@@ -65,7 +65,7 @@ fn no_words_of_reports_and_figures_are_covered_cut_small_or_pale() -> anyhow::Re
             continue;
         }
         figures += 1;
-        page.tab.navigate_to(&format!("file://{}", file.display()))?.wait_until_navigated()?;
+        page.go(&format!("file://{}", file.display()))?;
         let name = file.file_name().unwrap_or_default().to_string_lossy();
         // As wide as a phone shows it in a page.
         if !WIDE.iter().any(|part| name.contains(part)) {

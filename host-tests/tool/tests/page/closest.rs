@@ -46,11 +46,13 @@ const FRAMES: [(bool, f64); 3] = [(false, 1.0), (true, 1.0), (true, 20.0)];
 #[test]
 fn a_script_comes_to_the_same_state_whatever_the_frames_do() -> anyhow::Result<()> {
     let page = Page::held_still()?;
+    // Small: a processor draws each frame.
+    page.set_size([320, 200], 0.25)?;
     let mut seen = Vec::new();
     for (draws, times) in FRAMES {
         page.ask(&format!("palpate.draw({draws})"))?;
-        page.slow_down(times)?;
         page.ask("palpate.take('teapot')")?;
+        page.slow_down(times)?;
         let about = page.ask("palpate.about()")?;
         let (size, middle) = (about["size"].as_f64().context("size")?, numbers(&about["middle"])?);
         for place in &places()[..4] {
@@ -58,6 +60,7 @@ fn a_script_comes_to_the_same_state_whatever_the_frames_do() -> anyhow::Result<(
             page.ask(&format!("palpate.hold({at:?}, 300)"))?;
             page.ask("palpate.drawn(2)")?;
         }
+        page.slow_down(1.0)?;
         let state = page.ask("palpate.state()")?;
         let rate = state["rate"].as_f64().context("rate")?;
         println!("draws: {draws}, slower {times} times: {rate:.0} frames a second, state {}", state["digest"]);

@@ -3,7 +3,7 @@
 
 use crate::browser::Page;
 use anyhow::{Context as _, ensure};
-use headless_chrome::protocol::cdp::Input::{DispatchTouchEvent, DispatchTouchEventTypeOption, TouchPoint};
+use serde_json::json;
 
 /// Where the body is drawn, pixels.
 const OVER: [f64; 2] = [540.0, 380.0];
@@ -16,27 +16,27 @@ const PRESSED: &str = "palpate.state().contact === 2 && palpate.state().gap < -1
 #[test]
 fn a_finger_presses_where_it_is_and_two_turn_the_view_and_zoom() -> anyhow::Result<()> {
     let page = Page::open()?;
-    fingers(&page, DispatchTouchEventTypeOption::TouchStart, &[OVER])?;
+    fingers(&page, "touchStart", &[OVER])?;
     page.comes_to(PRESSED)?;
     let before = place(&page)?;
-    fingers(&page, DispatchTouchEventTypeOption::TouchMove, &[[OVER[0] + 60.0, OVER[1]]])?;
+    fingers(&page, "touchMove", &[[OVER[0] + 60.0, OVER[1]]])?;
     page.comes_to(&format!("Math.hypot(...palpate.state().probe.map((x, axis) => x - {before:?}[axis])) > 1e-3"))?;
-    fingers(&page, DispatchTouchEventTypeOption::TouchEnd, &[])?;
+    fingers(&page, "touchEnd", &[])?;
     page.comes_to(HOVERS)?;
     let from = page.ask("palpate.state().looksFrom")?;
     let far = page.number("Math.hypot(...palpate.state().looksFrom)")?;
     let second = [OVER[0] + 80.0, OVER[1]];
-    fingers(&page, DispatchTouchEventTypeOption::TouchStart, &[OVER, second])?;
+    fingers(&page, "touchStart", &[OVER, second])?;
     // One of them comes down first, and the stylus goes there; in so many frames it is where it stays.
     page.ask("palpate.drawn(20)")?;
     let stylus = place(&page)?;
     for step in 1..=4 {
         let along = 30.0 * f64::from(step);
         let moved = [OVER, second].map(|[x, y]| [x + along, y]);
-        fingers(&page, DispatchTouchEventTypeOption::TouchMove, &moved)?;
+        fingers(&page, "touchMove", &moved)?;
     }
     page.comes_to(&format!("Math.hypot(...palpate.state().looksFrom.map((x, axis) => x - {from}[axis])) > 0.2"))?;
-    fingers(&page, DispatchTouchEventTypeOption::TouchEnd, &[])?;
+    fingers(&page, "touchEnd", &[])?;
     page.ask("palpate.drawn(10)")?;
     let now = page.number("Math.hypot(...palpate.state().looksFrom)")?;
     ensure!((now / far - 1.0).abs() < 0.02, "the view has come nearer: {far} to {now}");
@@ -44,12 +44,12 @@ fn a_finger_presses_where_it_is_and_two_turn_the_view_and_zoom() -> anyhow::Resu
     // A finger's way is 1 cm on the body.
     ensure!(moved < 5e-4, "the stylus went along: {moved} m");
     // From 80 px apart to 160.
-    fingers(&page, DispatchTouchEventTypeOption::TouchStart, &[OVER, second])?;
+    fingers(&page, "touchStart", &[OVER, second])?;
     for step in 1..=4 {
         let apart = [OVER[0] + 80.0 + 20.0 * f64::from(step), OVER[1]];
-        fingers(&page, DispatchTouchEventTypeOption::TouchMove, &[OVER, apart])?;
+        fingers(&page, "touchMove", &[OVER, apart])?;
     }
-    fingers(&page, DispatchTouchEventTypeOption::TouchEnd, &[])?;
+    fingers(&page, "touchEnd", &[])?;
     page.ask("palpate.drawn(10)")?;
     let near = page.number("Math.hypot(...palpate.state().looksFrom)")?;
     ensure!((near / now - 0.5).abs() < 0.05, "a pinch apart: {now} to {near}");
@@ -61,15 +61,15 @@ fn a_finger_presses_where_it_is_and_two_turn_the_view_and_zoom() -> anyhow::Resu
 fn keys_move_the_stylus_raise_it_and_press_it_in() -> anyhow::Result<()> {
     let page = Page::open()?;
     // The picture has the keys from the beginning.
-    page.tab.press_key("ArrowLeft")?;
+    page.press_key("ArrowLeft")?;
     page.comes_to(HOVERS)?;
     let before = place(&page)?;
     for _ in 0..4 {
-        page.tab.press_key("ArrowRight")?;
+        page.press_key("ArrowRight")?;
     }
     page.comes_to(&format!("Math.hypot(...palpate.state().probe.map((x, axis) => x - {before:?}[axis])) > 1e-3"))?;
     for _ in 0..2 {
-        page.tab.press_key("PageUp")?;
+        page.press_key("PageUp")?;
     }
     page.comes_to("Math.abs(palpate.state().gap - 0.14 * palpate.about().size) < 1e-4")?;
     // A key that stays down: `press_key` lets go at once.
@@ -94,25 +94,9 @@ fn place(page: &Page) -> anyhow::Result<Vec<f64>> {
     probe.as_array().context("no probe")?.iter().map(|x| x.as_f64().context("no number")).collect()
 }
 
-fn fingers(page: &Page, event: DispatchTouchEventTypeOption, at: &[[f64; 2]]) -> anyhow::Result<()> {
-    let points = at.iter().enumerate().map(|(finger, [x, y])| TouchPoint {
-        x: *x,
-        y: *y,
-        radius_x: None,
-        radius_y: None,
-        rotation_angle: None,
-        force: None,
-        tangential_pressure: None,
-        tilt_x: None,
-        tilt_y: None,
-        twist: None,
-        id: Some(finger as f64),
-    });
-    page.tab.call_method(DispatchTouchEvent {
-        Type: event,
-        touch_points: points.collect(),
-        modifiers: None,
-        timestamp: None,
-    })?;
+fn fingers(page: &Page, event: &str, at: &[[f64; 2]]) -> anyhow::Result<()> {
+    let points = at.iter().enumerate().map(|(finger, [x, y])| json!({ "x": x, "y": y, "id": finger }));
+    let points: Vec<_> = points.collect();
+    page.call("Input.dispatchTouchEvent", &json!({ "type": event, "touchPoints": points }))?;
     Ok(())
 }
