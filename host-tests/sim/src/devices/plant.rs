@@ -1,14 +1,16 @@
 //! Simulated plant of the user's own device.
 //!
-//! Geometry, transmission and friction come from the file. Inertia that the file does not state is assumed: thin rods
-//! of 100 g, a turntable of 2e-3 kg·m², rotors of 10 g·cm². The load of gravity on the joints is the file's,
-//! independent of the assumed masses.
+//! Geometry, transmission and friction come from the file, and where it states the inertia of a joint that in the middle
+//! of the workspace. The rest is assumed: thin rods of 100 g, a turntable of 2e-3 kg·m², rotors of 10 g·cm². The load of
+//! gravity on the joints is the file's, independent of the assumed masses.
 
+use super::read::OwnDevice;
 use super::schema::{DeviceFile, JointEntry, MassEntry, MechanismEntry};
 use crate::plant::{
     Amplifier, ArmSettings, DeltaSettings, Direction, FiveBarSettings, JointSettings, Link, LinkLump,
-    LinkageArmSettings, MechanismSettings, PlantSettings, Winding,
+    LinkageArmSettings, MechanismSettings, PlantSettings, Vector, Winding,
 };
+use std::fmt::Write as _;
 
 /// How far inside a joint's range its stops are, rad.
 const STOPS_WITHIN: f64 = 0.03;
@@ -18,11 +20,17 @@ const ROD: f64 = 0.1;
 const TURNTABLE: f64 = 2.0e-3;
 /// Assumed, kg·m².
 const ROTOR: f64 = 1e-6;
+/// Of the drums and counterweights of each link, assumed, kg·m².
+const BALANCE: [f64; 2] = [1e-3, 5e-4];
+/// The part of a stated inertia that assumed masses may make up; the rotor has the rest.
+const OF_LINKS: f64 = 0.9;
+/// Rotors are positive, kg·m².
+const MIN_ROTOR: f64 = 1e-9;
 
 /// The plant of a file; else the entry that it refuses, and why.
 pub(super) fn settings(file: &DeviceFile) -> Result<PlantSettings, (&'static str, String)> {
-    let settings = PlantSettings {
-        mechanism: mechanism(&file.mechanism),
+    let mut settings = PlantSettings {
+        mechanism: mechanism(&file.mechanism, 1.0),
         gravity: 9.81,
         joints: core::array::from_fn(|index| joint(&file.joint[index])),
         current_time_constant: 1.5e-4,
@@ -45,7 +53,52 @@ pub(super) fn settings(file: &DeviceFile) -> Result<PlantSettings, (&'static str
             return refuse(format!("needs joint {name} at {angle:.2} rad, beyond its stops, {stops}"));
         }
     }
+    state_inertia(file, &mut settings, angles);
     Ok(settings)
+}
+
+/// The inertia that turns with each joint at these angles, the others held, kg·m²: drum, links and rotor; of a delta
+/// without its plate, which three joints share.
+fn inertias(settings: &PlantSettings, angles: Vector) -> Vector {
+    let mut alone = *settings;
+    if let MechanismSettings::Delta(delta) = &mut alone.mechanism {
+        delta.plate_mass = 0.0;
+    }
+    let matrix = alone.mechanism(0.0).mass_matrix(angles);
+    core::array::from_fn(|index| matrix[index][index])
+}
+
+/// Scales assumed masses down to less than every stated inertia, and gives the rotors the rest.
+fn state_inertia(file: &DeviceFile, settings: &mut PlantSettings, angles: Vector) {
+    let stated = || file.joint.iter().enumerate().filter_map(|(index, joint)| Some((index, joint.inertia?)));
+    let squared = settings.joints.map(|joint| joint.ratio * joint.ratio);
+    let found = inertias(settings, angles);
+    let scales = stated().map(|(index, wanted)| OF_LINKS * wanted / (found[index] - ROTOR * squared[index]));
+    settings.mechanism = mechanism(&file.mechanism, scales.fold(1.0, f64::min));
+    let found = inertias(settings, angles);
+    for (index, wanted) in stated() {
+        settings.joints[index].rotor_inertia = (ROTOR + (wanted - found[index]) / squared[index]).max(MIN_ROTOR);
+    }
+}
+
+/// The assumptions about inertia, in a line.
+pub(super) fn remark(own: &OwnDevice) -> String {
+    if own.file.joint.iter().any(|joint| joint.inertia.is_none()) {
+        return "what of its inertia the file does not state is assumed".to_owned();
+    }
+    let mut said = "inertia as stated; its split over links assumed".to_owned();
+    let angles = own.plant.mechanism(0.0).angles([0.0; 3]).unwrap_or_default();
+    for (joint, found) in own.file.joint.iter().zip(inertias(&own.plant, angles)) {
+        let stated = joint.inertia.unwrap_or(found);
+        if found > 1.01 * stated {
+            let _ = write!(
+                said,
+                "; joint {}: {stated} kg·m² stated, {found:.1e} simulated, of its masses alone: correct one of them",
+                joint.name
+            );
+        }
+    }
+    said
 }
 
 fn direction(ratio: f64) -> Direction {
@@ -75,27 +128,29 @@ fn joint(entry: &JointEntry) -> JointSettings {
     }
 }
 
-fn mechanism(entry: &MechanismEntry) -> MechanismSettings {
+/// With this part of the assumed masses.
+fn mechanism(entry: &MechanismEntry, part: f64) -> MechanismSettings {
+    let rod = ROD * part;
     match entry {
         MechanismEntry::SerialArm { base_height, first_link, second_link, workspace_centre, end_masses } => {
-            let [first, second] = [first_link, second_link].map(|length| Link::rod(*length, ROD, 0.5 * length));
+            let [first, second] = [first_link, second_link].map(|length| Link::rod(*length, rod, 0.5 * length));
             MechanismSettings::Arm(ArmSettings {
                 base_height: *base_height,
                 first_link: first,
                 second_link: second,
                 workspace_centre: *workspace_centre,
-                turntable_inertia: TURNTABLE,
+                turntable_inertia: TURNTABLE * part,
                 // What the file says that they lift, less what these rods weigh.
                 balance: [
-                    end_masses[0] * first_link - ROD * first.centre - ROD * first_link,
-                    end_masses[1] * second_link - ROD * second.centre,
+                    end_masses[0] * first_link - rod * first.centre - rod * first_link,
+                    end_masses[1] * second_link - rod * second.centre,
                 ],
-                balance_inertia: [1e-3, 5e-4],
+                balance_inertia: BALANCE.map(|inertia| inertia * part),
             })
         }
         MechanismEntry::LinkageArm(arm) => {
             let lengths = [arm.cranks[0], arm.cranks[1], arm.tool.abs().max(arm.rods[0]), arm.rods[1]];
-            let assumed = |length: f64| MassEntry { mass: ROD, along: 0.5 * length, across: 0.0 };
+            let assumed = |length: f64| MassEntry { mass: rod, along: 0.5 * length, across: 0.0 };
             let masses = arm.masses.unwrap_or_else(|| lengths.map(assumed));
             MechanismSettings::LinkageArm(LinkageArmSettings {
                 linkage: FiveBarSettings {
@@ -116,7 +171,7 @@ fn mechanism(entry: &MechanismEntry) -> MechanismSettings {
                 },
                 pivot_reach: arm.pivot_reach,
                 workspace_centre: arm.workspace_centre,
-                turntable_inertia: TURNTABLE,
+                turntable_inertia: TURNTABLE * part,
             })
         }
         MechanismEntry::Delta { thigh, shin, stub, reach, side, legs, workspace_depth, carried_mass, thigh_moment } => {
@@ -133,12 +188,51 @@ fn mechanism(entry: &MechanismEntry) -> MechanismSettings {
                 s: *side,
                 legs: *legs,
                 workspace_depth: *workspace_depth,
-                thigh_inertia: 1.5e-4,
+                thigh_inertia: 1.5e-4 * part,
                 shin_mass,
                 plate_mass: (carried_mass - 1.5 * shin_mass).max(0.02),
                 thigh_mass: 0.060,
                 thigh_centre: ((thigh_moment - knee) / 0.060).max(0.0),
             })
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{inertias, remark};
+    use crate::devices::{OwnDevice, named};
+
+    /// The shipped plants have the same numbers of another make, their links and rotors; the constants are rounded.
+    #[test]
+    fn the_plant_of_a_file_has_the_stated_inertia_in_the_middle_of_the_workspace() {
+        for name in ["woodenhaptics-2016", "polhem-v2", "phantom-premium", "falcon"] {
+            let shipped = named(name).expect("it ships");
+            let file = shipped.file().expect("a file of it");
+            let stated: Vec<f64> = file.joint.iter().map(|joint| joint.inertia.expect("stated")).collect();
+            let own = OwnDevice::new(file, name).expect("a device").plant;
+            for (plant, off) in [(shipped.plant, 0.06), (own, 1e-9)] {
+                let angles = plant.mechanism(0.0).angles([0.0; 3]).expect("within reach");
+                for (found, stated) in inertias(&plant, angles).into_iter().zip(&stated) {
+                    println!("{name}: {found:.3e} kg·m², {stated:.3e} stated");
+                    assert!((found / stated - 1.0).abs() < off, "{name}: {found} {stated}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn inertia_below_that_of_the_stated_masses_is_reported() {
+        let mut file = named("polhem-v2").and_then(|device| device.file()).expect("a file of it");
+        assert_eq!(
+            remark(&OwnDevice::new(file.clone(), "a").expect("a device")),
+            "inertia as stated; its split over links assumed"
+        );
+        file.joint[2].inertia = Some(1e-4);
+        let said = remark(&OwnDevice::new(file.clone(), "a").expect("a device"));
+        assert!(said.contains("joint c: 0.0001 kg·m² stated, "), "{said}");
+        file.joint[2].inertia = None;
+        let said = remark(&OwnDevice::new(file, "a").expect("a device"));
+        assert_eq!(said, "what of its inertia the file does not state is assumed");
     }
 }

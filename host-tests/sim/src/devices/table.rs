@@ -139,7 +139,7 @@ pub fn own_device(own: &OwnDevice, from: &str) -> &'static ShippedDevice {
         about: "one's own",
         preset: own.preset,
         plant: own.plant,
-        assumed: "what of its inertia the file does not state is assumed",
+        assumed: Box::leak(super::plant::remark(own).into_boxed_str()),
         source: Some([mechanism, "DEVICE"]),
         constants: Some((Box::leak(super::source(own, from).into_boxed_str()), own.protection)),
     }))
