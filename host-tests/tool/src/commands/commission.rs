@@ -110,12 +110,18 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         return jog(&mut lab, &own.file, (output, arguments.duty), arguments.seconds);
     }
     let Some(out) = &arguments.out else { bail!("--out FILE is required") };
-    let measured = if arguments.weigh { find } else { find_mounting };
-    let (file, findings) = measured(&mut lab, &own, arguments.zero)?;
+    let (file, findings, weights) = if arguments.weigh {
+        find(&mut lab, &own, arguments.zero).map(|(file, findings, weights)| (file, findings, Some(weights)))
+    } else {
+        find_mounting(&mut lab, &own, arguments.zero).map(|(file, findings)| (file, findings, None))
+    }?;
     let found = OwnDevice::new(file, "what was measured")?;
     let head = format!("Measured by `palpate commission`, started from {name}.");
     std::fs::write(out, toml_of(&found, &head)?).with_context(|| format!("cannot write {}", out.display()))?;
     report(&own, &findings);
+    if let Some(weights) = weights {
+        println!("  {weights}");
+    }
     for sentence in begin_within(&found.file) {
         println!("  {sentence}");
     }

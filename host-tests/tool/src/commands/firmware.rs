@@ -291,9 +291,13 @@ mod tests {
 
     #[test]
     fn a_body_out_of_the_arms_reach_is_refused_as_sim_refuses_it() {
-        let reaches = |x| reaches(None, Path::new("capped_box"), Vec3::new(x, 0.0, 0.0)).map_err(|e| e.to_string());
-        assert_eq!(reaches(0.0), Ok(()));
-        assert!(reaches(0.4).is_err_and(|error| error.contains("--at")));
+        let reaches = |x, z| reaches(None, Path::new("capped_box"), Vec3::new(x, 0.0, z)).map_err(|e| e.to_string());
+        assert_eq!(reaches(0.0, 0.0), Ok(()));
+        assert!(reaches(0.4, 0.0).is_err_and(|error| error.contains("--at")));
+        // The table is 80 mm under the centre, and the box 25 mm high above its origin.
+        assert_eq!(reaches(0.0, -0.09), Ok(()));
+        let error = reaches(0.0, -0.2).unwrap_err();
+        assert!(error.contains("below the table, 80 mm under the centre") && error.contains("--at"), "{error}");
     }
 
     #[test]

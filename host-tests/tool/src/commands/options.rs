@@ -228,17 +228,35 @@ pub(super) fn has_room(device: &ShippedDevice) -> impl Fn([f64; 3]) -> bool + us
     move |place| mechanism.angles(place).is_some_and(|angles| preset.room(angles) > 0.0)
 }
 
+/// The height of the table, m above the centre of the workspace, under an arm whose file states that of its base.
+fn table_height(device: &ShippedDevice) -> Option<f64> {
+    let Preset::SerialArm(device) = device.preset else { return None };
+    let arm = &device.kinematics;
+    (arm.base_height_m > 0.0).then_some(-f64::from(arm.workspace_centre_m.z))
+}
+
 /// The path of a hand over a surface that lies in the workspace of a device, as `at` has it: point and normal, metres.
 /// Where the surface is larger than the workspace, the hand keeps to the middle of the surface.
 ///
 /// # Errors
-/// A surface that the hand does not reach.
+/// A surface that the hand does not reach, or that lies below the table.
 pub(super) fn path_over(
     device: &ShippedDevice,
     at: impl Fn(f64, f64) -> ([f64; 3], [f64; 3]),
     seconds: f64,
     seed: u64,
 ) -> anyhow::Result<TouchingPath> {
+    if let Some(table) = table_height(device) {
+        let share = |number: u8| f64::from(number % 9) / 8.0;
+        let top = (0..81).map(|number| at(share(number), share(number / 9)).0[2]).fold(f64::NEG_INFINITY, f64::max);
+        ensure!(
+            top >= table,
+            "{}: the whole surface lies below the table, {:.0} mm under the centre of the workspace: raise the model with \
+             --at, or the centre by `workspace_centre` of the device file",
+            device.name,
+            -1e3 * table
+        );
+    }
     TouchingPath::within(at, seconds, seed, has_room(device)).map_err(|error| {
         if error == PathError::NoRoom {
             anyhow!(

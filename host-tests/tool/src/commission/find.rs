@@ -12,14 +12,14 @@ use palpate_sim::devices::preset::Preset;
 use palpate_sim::devices::{DeviceFile, HomingEntry, OwnDevice};
 
 /// Measures a device and writes the results into its file. Entries within the uncertainty of the measurement do not
-/// change.
+/// change. The last of what it returns compares measured and modelled weights, in a line.
 ///
 /// # Errors
 /// An impossible result: a joint that moves no encoder, or two; a motor that moves no joint.
-pub fn find(lab: &mut Lab, own: &OwnDevice, by: Zero) -> anyhow::Result<(DeviceFile, Vec<Finding>)> {
+pub fn find(lab: &mut Lab, own: &OwnDevice, by: Zero) -> anyhow::Result<(DeviceFile, Vec<Finding>, String)> {
     let (mut file, mut findings) = find_mounting(lab, own, by)?;
-    find_torques(lab, &mut file, own, middle(own)?, &mut findings)?;
-    Ok((file, findings))
+    let weights = find_torques(lab, &mut file, own, middle(own)?, &mut findings)?;
+    Ok((file, findings, weights))
 }
 
 /// The same without a weight: inputs, outputs, signs, ratios and zeroes.

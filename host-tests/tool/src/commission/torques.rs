@@ -28,14 +28,15 @@ const COUNTS: f64 = 2.0;
 /// Minimum motion, rad: more than a hard support yields under the load.
 const GIVE: f64 = 5e-4;
 
-/// Measures the torques and writes them into the file. `loads` are gravity's torques on the joints, N·m.
+/// Measures the torques and writes them into the file. `loads` are gravity's torques on the joints, N·m. Returns them
+/// beside the measured ones, in a line.
 pub(super) fn find_torques(
     lab: &mut Lab,
     file: &mut DeviceFile,
     own: &OwnDevice,
     (centre, loads): ([f64; 3], [f64; 3]),
     findings: &mut Vec<Finding>,
-) -> anyhow::Result<()> {
+) -> anyhow::Result<String> {
     let most = most(own);
     let mut held = [0.0; 3];
     let jacobian = own.plant.mechanism(0.0).jacobian(centre);
@@ -87,7 +88,24 @@ pub(super) fn find_torques(
         }
     }
     weigh(file, loads, held, findings);
-    Ok(())
+    Ok(weights(file, loads, held))
+}
+
+/// The torques that hold each joint, N·m, measured and by the file, in a line.
+fn weights(file: &DeviceFile, loads: [f64; 3], held: [f64; 3]) -> String {
+    let joints = file.joint.iter().zip(held.into_iter().zip(loads));
+    let each: Vec<String> =
+        joints.map(|(joint, (held, load))| format!("{} {held:.3} ({load:.3})", joint.name)).collect();
+    let verdict = if (0..3).any(|joint| is_off(loads[joint], held[joint])) { "differ" } else { "agree" };
+    format!(
+        "weights {verdict}, N·m that hold each joint, measured (by the file): {}; {:.0} % and {STEPS} N·m are allowed",
+        each.join(", "),
+        100.0 * WEIGHT_WITHIN
+    )
+}
+
+fn is_off(load: f64, held: f64) -> bool {
+    (held - load).abs() > WEIGHT_WITHIN * load.abs() + STEPS
 }
 
 /// Share of a load by which holding it may differ: the torque constant's uncertainty. Less than the 10 % with which a
@@ -101,8 +119,7 @@ const LIGHT: f64 = 0.01;
 /// Compares what holding each joint takes, N·m, with gravity's loads by the file, and writes the masses that explain
 /// it.
 fn weigh(file: &mut DeviceFile, loads: [f64; 3], held: [f64; 3], findings: &mut Vec<Finding>) {
-    let differs = |joint: usize| (held[joint] - loads[joint]).abs() > WEIGHT_WITHIN * loads[joint].abs() + STEPS;
-    let off: Vec<usize> = (0..3).filter(|joint| differs(*joint)).collect();
+    let off: Vec<usize> = (0..3).filter(|joint| is_off(loads[*joint], held[*joint])).collect();
     for &joint in &off {
         let (name, held, load) = (&file.joint[joint].name, held[joint], loads[joint]);
         findings.push(Finding(format!("joint {name}: holding it takes {held:.3} N·m, not {load:.3}")));

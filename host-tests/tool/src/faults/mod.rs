@@ -153,6 +153,11 @@ impl Failure {
         self.test.starts_with("test_")
     }
 
+    /// Whether it is one of magnetic sensors on a bus.
+    pub fn is_magnetic(&self) -> bool {
+        matches!(self.shown, Shown::Planted(Setting::Magnetic, _))
+    }
+
     /// Why this device need not detect it.
     pub fn excuse(&self, subject: &Subject) -> Option<&'static str> {
         self.except.and_then(|(_, except)| except(subject))

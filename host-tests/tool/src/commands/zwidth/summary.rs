@@ -63,11 +63,18 @@ pub(super) fn answer(device: &ShippedDevice, rates: &[f64]) -> String {
     let damping = settings.damping_n_s_per_m;
     let most = max_stiffness(&slice, damping.into(), &servo);
     let entry = (10.0 * (0.05 * most).floor()).min(10_000.0);
+    let limit = f64::from(device.preset.limits().stiffness);
+    let recommended = settings.stiffness_n_per_m;
+    let margins = [limit, recommended.into()].map(|stiffness| most / stiffness);
+    let beyond = if margins[0] < 1.0 { ", unstable here" } else { "" };
     format!(
         "recommended rendering (smooth: position between counts, {corner} Hz; eased), {damping} N·s/m, {} kHz, weakest \
-         direction {place}: up to {} N/m\nmax_stiffness = {entry:.1}   # half of it, a gain margin of 2; then the bench",
+         direction {place}: up to {} N/m\ngain margin there: {:.1} with this device's max_stiffness, {limit} N/m{beyond}; \
+         {:.1} with the recommended stiffness, {recommended} N/m\nmax_stiffness = {entry:.1}   # half of it, a gain margin of 2; then the bench",
         rate / 1_000.0,
-        in_words(&slice, most)
+        in_words(&slice, most),
+        margins[0],
+        margins[1]
     )
 }
 
@@ -116,6 +123,8 @@ mod tests {
             file.joint.iter_mut().for_each(|joint| joint.encoder.counts = counts);
             let device = own_device(&OwnDevice::new(file, "arm.toml").expect("a device"), "arm.toml");
             let answer = answer(device, &[1_000.0, 4_000.0]);
+            // The shipped device's own limit and its recommended stiffness, N/m.
+            assert!(answer.contains("max_stiffness, 1000 N/m") && answer.contains("stiffness, 500 N/m\n"), "{answer}");
             let entry = answer.lines().last().and_then(|line| line.strip_prefix("max_stiffness = "));
             let entry = entry.and_then(|entry| entry.split(' ').next()).and_then(|entry| entry.parse::<f64>().ok());
             assert!(answer.contains(" 4 kHz, "), "{answer}");
