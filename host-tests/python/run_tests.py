@@ -72,10 +72,10 @@ def wheel(builder: Path) -> Path:
 
 
 def plain_loop() -> Path:
-    """The loop in Rust that answers are held to, built."""
+    """The loop in Rust that answers are held to, built. Beside the wheel's package, for the features that it was built with."""
     run(
         os.environ.get("CARGO", "cargo"), "build", "--quiet", "--profile", "apart", "--locked",
-        "--package", "palpate-race", "--example", "plain_loop",
+        "--package", "palpate-race", "--package", "palpate-python", "--example", "plain_loop",
         "--manifest-path", ROOT / "Cargo.toml", "--target-dir", ROOT / "target",
     )  # fmt: skip
     return ROOT / "target/apart/examples/plain_loop"

@@ -59,15 +59,9 @@ impl Images {
 }
 
 impl Choice {
-    /// The folder of the build. Images with another body or other settings have a folder of their own, because cargo
-    /// rebuilds when these change.
-    fn target_folder(&self, toolchain: &Toolchain) -> Result<PathBuf, SetUpError> {
-        let folder = toolchain.target_folder()?;
-        Ok(if self.body.is_some() || self.settings.is_some() || self.cold.is_some() {
-            folder.join("chosen")
-        } else {
-            folder
-        })
+    /// Whether files go into the image.
+    const fn has_files(&self) -> bool {
+        self.body.is_some() || self.settings.is_some() || self.cold.is_some()
     }
 }
 
@@ -103,7 +97,7 @@ pub fn build_program(
     for feature in features {
         cargo.args(["--features", feature]);
     }
-    let built = choice.target_folder(toolchain)?.join(toolchain.target()).join("release").join(program);
+    let built = toolchain.target_folder()?.join(toolchain.target()).join("release").join(program);
     let first = if built.exists() { "" } else { ", the first time about half a minute" };
     let what = format!("building the firmware image {program} for {}{first}", choice.board.core());
     progress.during(&what, || output(&mut cargo))?;
@@ -141,7 +135,10 @@ fn cargo_build(toolchain: &Toolchain, choice: &Choice) -> Result<Command, SetUpE
         .arg("--config")
         .arg(choice.board.cargo_config()?)
         .args(["build", "--release", "--target-dir"])
-        .arg(choice.target_folder(toolchain)?);
+        .arg(toolchain.target_folder()?);
+    if choice.has_files() {
+        cargo.args(["--features", "chosen"]);
+    }
     if choice.protected {
         cargo.args(["--features", "protected"]);
     }
