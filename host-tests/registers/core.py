@@ -182,7 +182,7 @@ class Core:
         waited = self.last_look - self.first_look if self.looks else 0
         self.looks = 0
         entry = Access(len(self.log.entries), is_write, word, value, written, self.cycles, self.during, waited, lost)
-        self.log.entries.append(entry)
+        self.log.add(entry)
         if self.stop_when is not None and self.stop_when(entry):
             self.stop_when = None
             self.unicorn.emu_stop()

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Callable
+from operator import attrgetter
+from typing import Callable, Iterable
 
 
-@dataclass(frozen=True)
+@dataclass(slots=True)
 class Access:
     """One access to a register. A write's value is the whole word after it."""
 
@@ -31,13 +32,27 @@ class Log:
 
     def __init__(self, chip) -> None:
         self.chip = chip
+        self.start()
+
+    def start(self, entries: Iterable[Access] = (), enables: Iterable[tuple[int, tuple]] = ()) -> None:
+        """Starts again, with these."""
         self.entries: list[Access] = []
+        # By register, for a test may ask in each tick.
+        self._writes: dict[int, list[Access]] = {}
         # The index of the entry after which they were so.
-        self.enables: list[tuple[int, tuple]] = []
+        self.enables: list[tuple[int, tuple]] = list(enables)
+        for entry in entries:
+            self.add(entry)
+
+    def add(self, entry: Access) -> None:
+        """Another access."""
+        self.entries.append(entry)
+        if entry.is_write and not entry.is_lost:
+            self._writes.setdefault(entry.address, []).append(entry)
 
     def writes(self, *addresses: int) -> list[Access]:
         """The writes to these registers that were not lost."""
-        return [entry for entry in self.entries if entry.is_write and entry.address in addresses and not entry.is_lost]
+        return sorted((entry for address in addresses for entry in self._writes.get(address, ())), key=attrgetter("index"))
 
     def first(self, address: int, condition: Callable[[int], bool] = lambda _: True, write: bool = True) -> int:
         """The index of the first write, or read, of a register with such a value."""

@@ -20,6 +20,8 @@ INTERRUPTS = 16
 EXC_RETURN = 0xFFFF_FFF9
 # A run of so many half-words of code is taken for one that hangs; so many are more than a stop takes.
 TOO_LONG, STOPS = 60_000_000, 40_000
+# Memory is compared by so many bytes.
+PAGE = 4096
 # Pieces of code, from branch to branch, that are more than a critical section has.
 MOMENTS = 200
 
@@ -39,8 +41,7 @@ class Machine(Core):
         self._begin()
 
     def _begin(self) -> None:
-        self.log.entries.clear()
-        self.log.enables.clear()
+        self.log.start()
         self.time = self.ahead = self.during = 0
         self.note_enables()
         stack, entry = self.chip.entry()
@@ -111,13 +112,17 @@ class Machine(Core):
 
     def restore(self, snapshot: tuple) -> None:
         """Goes back to it."""
-        context, memory, chip, words, (entries, enables), (self.time, self.ahead, self.during) = snapshot
+        context, memory, chip, words, log, (self.time, self.ahead, self.during) = snapshot
         self.unicorn.context_restore(context)
         for start, data in memory:
-            self.unicorn.mem_write(start, data)
+            now = self.memory(start, len(data))
+            # Unicorn translates code again that was written to.
+            for at in range(0, 0 if now == data else len(data), PAGE):
+                if now[at : at + PAGE] != data[at : at + PAGE]:
+                    self.unicorn.mem_write(start + at, data[at : at + PAGE])
         vars(self.chip).update(copy.deepcopy(chip))
         self.words = dict(words)
-        self.log.entries, self.log.enables = list(entries), list(enables)
+        self.log.start(*log)
         self.late, self.stop_when = 0, None
 
     def vectors(self) -> int:
