@@ -51,7 +51,7 @@ def test_everything_public_says_what_it_is():
             for member, value in vars(item).items():
                 is_public = not member.startswith("_") and member not in getattr(item, "_fields", ())
                 assert not is_public or inspect.getdoc(value), f"{name}.{member}"
-    for columns in (palpate.Closest, palpate.Ticks, palpate.Curved, palpate.Apart, palpate.Run, palpate.Records, palpate.Dials, palpate.Turned):
+    for columns in (palpate.Closest, palpate.Ticks, palpate.Curved, palpate.Apart, palpate.Run, palpate.Records, palpate.Dials, palpate.Turned, palpate.Recording):
         for field in columns._fields:
             assert field in columns.__doc__, f"{columns.__name__}.{field}: neither shape nor unit"
 

@@ -43,6 +43,8 @@ fn run<S: AsRef<OsStr>>(words: &[S]) -> anyhow::Result<ExitCode> {
     }
     let mut python = Command::new(PYTHON);
     without_outer_cargo(&mut python);
+    // Its tests have this program record a run.
+    python.env("PALPATE_TOOL", std::env::current_exe()?);
     python.arg(repository::root()?.join("host-tests/python/run_tests.py")).args(words);
     let status = python.status().with_context(|| format!("{python:?}"))?;
     Ok(if status.success() { ExitCode::SUCCESS } else { ExitCode::FAILURE })

@@ -17,6 +17,7 @@ from .bodies import Body, Pair, Tracker
 from .knob import Knob
 from .loops import Link, devices, simulate
 from .outside import Outside
+from .recordings import Recording
 from .results import Apart, Closest, Curved, Dials, Records, Run, Settled, Ticks, Turned
 from .rig import Device, Loop, Plant
 from .surfaces import patch_of
@@ -38,6 +39,7 @@ __all__ = [
     "Outside",
     "Pair",
     "Plant",
+    "Recording",
     "Records",
     "Run",
     "Settled",
