@@ -23,10 +23,11 @@ import { colour, withColours } from "scheme";
 
 const STEEL = 0xcdd4df;
 /** Names of colours, which the reader's scheme changes. */
-const WITNESS = "witness",
-  FORCE = "force",
+const WITNESS = "mark-point",
+  FORCE = "mark-force",
   NEWTON = "lost",
-  NORMAL = "ink";
+  NORMAL = "mark-normal",
+  REGION = "witness";
 const UP = new Vector3(0, 1, 0);
 /** How far the region's sheets reach, and how long an arrow of a newton is, in sizes of the body. */
 const REACH = 0.42,
@@ -58,7 +59,7 @@ export class Marks {
     this.sheet = new Mesh(
       new BufferGeometry(),
       inked(
-        WITNESS,
+        REGION,
         new MeshBasicMaterial({ vertexColors: true, transparent: true, side: DoubleSide, depthWrite: false }),
       ),
     );
@@ -202,6 +203,8 @@ export class Marks {
 
 /** A material of a colour by its name, now and whenever the scheme changes. */
 function inked(name, material) {
+  // Tone mapping would make marks pale.
+  material.toneMapped = name === REGION;
   withColours(() => material.color.set(colour(name)));
   return material;
 }

@@ -19,10 +19,16 @@ export class Player {
     Object.assign(this, { recording, at: 0, plays: true });
     by("play").textContent = "pause";
     by("time").max = recording.views.length - 1;
-    by("timeline").hidden = false;
+    this.bar(true);
     by("device").disabled = true;
     by("device-about").textContent = `This run was made with ${recording.with}.`;
     by("live").textContent = `state hash ${recording.hash}: ${recording.on}’s, bit for bit`;
+  }
+
+  /** Shows the bar, which takes room from the body, or hides it. */
+  bar(shown) {
+    by("timeline").hidden = !shown;
+    dispatchEvent(new Event("resize"));
   }
 
   /** Stands at a time, s. */
@@ -35,7 +41,7 @@ export class Player {
   close() {
     this.recording = null;
     by("device").disabled = false;
-    by("timeline").hidden = true;
+    this.bar(false);
   }
 
   /** The view after so many seconds more. */

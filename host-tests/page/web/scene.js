@@ -41,6 +41,7 @@ const MOUSE_PAN = 2,
 export class Room {
   constructor(canvas) {
     this.canvas = canvas;
+    [this.foot, this.bar] = ["foot", "timeline"].map((id) => document.getElementById(id));
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
     this.renderer.toneMapping = ACESFilmicToneMapping;
     this.renderer.toneMappingExposure = 0.92;
@@ -259,9 +260,13 @@ export class Room {
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / Math.max(height, 1);
     // Narrow screens look from farther away.
-    this.camera.fov = this.camera.aspect < 1 ? 46 : 32;
-    // Above the words at the foot.
-    this.camera.setViewOffset(width, height, 0, 0.03 * height, width, height);
+    const fov = this.camera.aspect < 1 ? 46 : 32;
+    // Above the words at the foot, and as much smaller and higher as the bar of a recording takes, or on a phone what
+    // those words have beyond a fifth.
+    const bar = Math.max(this.bar.hidden ? 0 : this.bar.offsetHeight, this.foot.offsetHeight - height / 5);
+    const tangent = (Math.tan((fov / 2) * DEGREE) * height) / Math.max(height - bar, 1);
+    this.camera.fov = (2 * Math.atan(tangent)) / DEGREE;
+    this.camera.setViewOffset(width, height, 0, 0.03 * height + bar / 2, width, height);
     this.resolution = { x: width, y: height, isVector2: true };
     this.lines?.forEach((material) => material.resolution.set(width, height));
   }
@@ -279,6 +284,7 @@ export class Room {
   }
 }
 
+const DEGREE = Math.PI / 180;
 const IDENTITY = [1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0];
 
 function matrixOf(place) {

@@ -199,3 +199,44 @@ fn opened(page: &Page, recording: &[u8]) -> anyhow::Result<Value> {
     page.ask(&format!("palpate.open('run.json', {:?})", STANDARD.encode(recording)))?;
     page.ask("palpate.state()")
 }
+
+/// How far the lowest point of the bodies is above bar and words, pixels.
+const ABOVE_THE_FOOT: &str = "(() => {
+    const { room } = palpate.page, { top, height } = room.canvas.getBoundingClientRect();
+    // The browser says that it is of another size with its next frame.
+    room.resize();
+    room.draw(false);
+    const place = room.camera.position.clone();
+    let lowest = 0;
+    for (const face of room.faces) {
+        const position = face.geometry.getAttribute('position');
+        for (let at = 0; at < position.count; at += 1) {
+            place.fromBufferAttribute(position, at).applyMatrix4(face.matrixWorld).project(room.camera);
+            lowest = Math.max(lowest, ((1 - place.y) / 2) * height);
+        }
+    }
+    return document.getElementById('foot').getBoundingClientRect().top - top - lowest;
+})()";
+
+#[test]
+fn words_and_the_bar_of_a_recording_lie_below_the_body() -> anyhow::Result<()> {
+    let folder = tempfile::tempdir()?;
+    let recording = folder.path().join("sim.json").to_string_lossy().into_owned();
+    let printed = palpate(&["sim", "--seconds", "0.5", "--model", "capped_box", "--recording", &recording])?;
+    let line = printed.lines().find(|line| line.contains("state hash")).context("no hash")?;
+    let page = Page::held_still()?;
+    page.ask("palpate.take('capped_box')")?;
+    lie_below(&page, "words")?;
+    replayed(&page, &recording, line.split_whitespace().last().unwrap_or_default())?;
+    lie_below(&page, "the bar")
+}
+
+fn lie_below(page: &Page, what: &str) -> anyhow::Result<()> {
+    for size in [[1280, 800], [1200, 800], [1920, 1080], [390, 800]] {
+        page.set_size(size, 0.25)?;
+        let above = page.number(ABOVE_THE_FOOT)?;
+        println!("{size:?}, {what}: {above:.0} px");
+        ensure!(above > 0.0, "at {size:?} {what} lie over the body by {:.0} px", -above);
+    }
+    Ok(())
+}
