@@ -141,7 +141,8 @@ impl<'a> Tool<'a> {
                     let is_upper = [0, 1, 2].map(|axis| signs >> axis & 1 == 1);
                     let half = half.to_array();
                     let is_double = (0..3).any(|axis| is_upper[axis] && half[axis] <= 0.0);
-                    if let (false, Some(corner)) = (is_double, free.next()) {
+                    // Asked last: it would leave a place free.
+                    if !is_double && let Some(corner) = free.next() {
                         let at: [f32; 3] = core::array::from_fn(|k| if is_upper[k] { half[k] } else { -half[k] });
                         *corner = Some(Foot::in_solid(middle + Vec3::from_array(at)));
                     }
@@ -233,4 +234,19 @@ const MAX_LENGTH_M: f32 = 1.0e6;
 
 const fn is_length(x: f32) -> bool {
     x >= 0.0 && x <= MAX_LENGTH_M
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn corners_come_first_in_their_places() {
+        for (half, count) in [([0.0; 3], 0), ([0.0, 0.0, 0.01], 2), ([0.01, 0.0, 0.01], 4), ([0.01; 3], 8)] {
+            let tool = Tool::new(Core::Box { half }, 0.003).unwrap_or_else(|error| panic!("{half:?}: {error}"));
+            let corners = tool.corners::<8>();
+            assert_eq!(corners.iter().take_while(|corner| corner.is_some()).count(), count, "{half:?}");
+            assert_eq!(corners.iter().flatten().count(), count, "{half:?}");
+        }
+    }
 }
