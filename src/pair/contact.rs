@@ -11,6 +11,8 @@ use crate::track::Placement;
 pub const MAX_CONTACTS: usize = 6;
 /// Relative to the body's size: arms that differ by less are one.
 const SAME_ARM: f32 = 1.0e-3;
+/// The same of a contact that goes on from one tick to the next.
+const NEAR_ARM: f32 = 0.02;
 /// Normals whose cosine is above this are one: an angle of 0.08 degrees.
 const SAME_NORMAL: f32 = 1.0 - 1.0e-6;
 
@@ -24,6 +26,8 @@ pub struct ToolContact {
     /// Distance of the tool from the body, metres: the core's less the radius. Negative where the ball around the core
     /// is in the body.
     pub gap: f32,
+    /// Of the body on the tool, N: what holds the drawn tool outside, with friction.
+    pub force: Vec3,
 }
 
 /// The contacts that a tool can close in one tick: the pair first, then the core's corners, the corners and borders of the
@@ -32,10 +36,13 @@ pub struct ToolContact {
 pub struct Manifold {
     contacts: [ToolContact; MAX_CONTACTS],
     count: u8,
+    /// Arm and force of the contacts that pressed in the last tick.
+    pressed: [[Vec3; 2]; MAX_CONTACTS],
+    pressed_count: u8,
 }
 
 impl ToolContact {
-    const NONE: Self = Self { normal: Vec3::ZERO, arm: Vec3::ZERO, gap: 0.0 };
+    const NONE: Self = Self { normal: Vec3::ZERO, arm: Vec3::ZERO, gap: 0.0, force: Vec3::ZERO };
 
     /// The torque of a unit force along the normal about the origin of the tool's frame, metres.
     pub(super) fn lever(&self) -> Vec3 {
@@ -52,7 +59,7 @@ impl ToolContact {
         if squared > reach * reach || !is_outside(away) {
             return None;
         }
-        Some(Self { normal: unit(away), arm, gap: sqrt(squared) - within.radius })
+        Some(Self { normal: unit(away), arm, gap: sqrt(squared) - within.radius, force: Vec3::ZERO })
     }
 
     /// Of a part that may have waited since its last visit: of its plane, or of a border's point.
@@ -60,14 +67,15 @@ impl ToolContact {
         if part.is_at_rest() || part.normal == Vec3::ZERO {
             return None;
         }
-        let a = part.pair.a.point();
         if part.is_border() {
-            return Self::of(a, part.pair.b.point(), within, |away| part.normal.dot(away) > 0.0);
+            return Self::of(part.on_border(within.placement), part.pair.b.point(), within, |away| {
+                part.normal.dot(away) > 0.0
+            });
         }
         let arm = within.placement.direction_to_a(part.pair.b.point());
-        let distance = part.normal.dot(arm + within.placement.origin - a);
+        let distance = part.normal.dot(arm + within.placement.origin - part.pair.a.point());
         let is_near = distance <= within.reach_of(arm);
-        is_near.then_some(Self { normal: part.normal, arm, gap: distance - within.radius })
+        is_near.then_some(Self { normal: part.normal, arm, gap: distance - within.radius, force: Vec3::ZERO })
     }
 }
 
@@ -87,11 +95,43 @@ impl Within<'_> {
 
 impl Manifold {
     /// No contact.
-    pub const NONE: Self = Self { contacts: [ToolContact::NONE; MAX_CONTACTS], count: 0 };
+    pub const NONE: Self = Self {
+        contacts: [ToolContact::NONE; MAX_CONTACTS],
+        count: 0,
+        pressed: [[Vec3::ZERO; 2]; MAX_CONTACTS],
+        pressed_count: 0,
+    };
 
     /// The contacts.
     pub fn contacts(&self) -> &[ToolContact] {
         self.contacts.get(..usize::from(self.count)).unwrap_or(&[])
+    }
+
+    /// The contacts, whose forces are to be found.
+    pub(super) fn contacts_mut(&mut self) -> &mut [ToolContact] {
+        self.contacts.get_mut(..usize::from(self.count)).unwrap_or(&mut [])
+    }
+
+    /// Takes the forces of the last tick for a start, where a contact goes on.
+    pub(super) fn recall(&mut self, size: f32) {
+        let near = NEAR_ARM * size;
+        let (pressed, contacts) = (&self.pressed, &mut self.contacts);
+        for contact in contacts.iter_mut().take(usize::from(self.count)) {
+            let goes_on = |[arm, _]: &&[Vec3; 2]| (*arm - contact.arm).length_squared() <= near * near;
+            let known = pressed.iter().take(usize::from(self.pressed_count)).find(goes_on);
+            contact.force = known.map_or(Vec3::ZERO, |[_, force]| *force);
+        }
+    }
+
+    /// Keeps the forces that were found for the next tick.
+    pub(super) fn remember(&mut self) {
+        let mut count = 0;
+        let pressing = self.contacts.iter().take(usize::from(self.count)).filter(|contact| contact.force != Vec3::ZERO);
+        for (pressed, contact) in self.pressed.iter_mut().zip(pressing) {
+            *pressed = [contact.arm, contact.force];
+            count += 1;
+        }
+        self.pressed_count = count;
     }
 
     /// Enters a contact among those from `first` on, by its gap, unless one of all is the same.

@@ -16,14 +16,21 @@ const SPEED: [f32; 2] = [2.0, 40.0];
 const STEP: [f32; 2] = [0.5e-3, 0.01];
 /// Maximum change of the wrench by a proxy that moves farther than the hand, as where it slips over an edge: N/s and
 /// N·m/s, and in a tick.
-const SLIP: [f32; 2] = [160.0, 0.4];
-const SLIP_STEP: [f32; 2] = [0.04, 0.1e-3];
+const SLIP: [f32; 2] = [100.0, 0.4];
+const SLIP_STEP: [f32; 2] = [0.025, 0.1e-3];
+/// Largest coefficient of friction: above that of rubber on dry stone.
+const MAX_FRICTION: f32 = 2.0;
 /// Seconds over which the wrench fades once contact is given up, as a point's force does.
 const FADE_S: f32 = 0.005;
-/// Maximum sweeps over the contacts.
-const SWEEPS: u8 = 10;
+/// Maximum sweeps over the contacts, without friction and with it.
+const SWEEPS: [u8; 2] = [6, 12];
 /// Change of all contacts' forces in a sweep, N, after which no other follows.
-const SETTLED_N: f32 = 1.0e-4;
+const SETTLED_N: [f32; 2] = [1.0e-3, 1.0e-4];
+/// Steps below, m and rad, are not taken where there is friction.
+const HELD: [f32; 2] = [1.0e-8, 1.0e-6];
+/// Maximum rounds in which gaps that the sweeps leave closed are pushed open, and how far one may stay closed, metres.
+const REPAIRS: u8 = 4;
+const CLOSED_M: f32 = 1.0e-7;
 /// Of the radius: contact is given up where the core is nearer to the body than the rest.
 const GIVEN_UP: f32 = 0.5;
 /// Of the jump that a tracker notices: how far the tool goes in a tick from where it was located to the hand.
@@ -36,7 +43,7 @@ const STRIDE_RAD: f32 = 0.05;
 /// For an angle `θ` the torque is `k sin θ` about its axis, the gradient of the exact potential `2 k ‖vec q‖²`, without
 /// arc functions. A device that renders it at period `h` needs a damping of `k h/2` in each direction.
 ///
-/// The proxy follows by at most 2 m/s and 40 rad/s, and adds at most 160 N/s and 0.4 N·m/s to what the hand's own motion
+/// The proxy follows by at most 2 m/s and 40 rad/s, and adds at most 100 N/s and 0.4 N·m/s to what the hand's own motion
 /// makes of the wrench; below 4 kHz by as much a tick as at 4 kHz.
 ///
 /// ```
@@ -59,6 +66,8 @@ pub struct ToolCoupling {
     max_slip: [f32; 2],
     /// By which the share of a given-up wrench falls in a tick.
     fade_step: f32,
+    /// Coefficient `μ` of dry friction.
+    friction: f32,
 }
 
 /// Why a proxy is not started, or was given up.
@@ -70,6 +79,8 @@ pub enum ProxyError {
     Thin,
     /// Stiffness or rate of the coupling are not positive and finite.
     Coupling,
+    /// The coefficient of friction is not from 0 to 2.
+    Friction,
     /// The hand's pose is not finite, or its quaternion not of length 1.
     Pose,
     /// Tool and body intersect.
@@ -110,6 +121,7 @@ impl fmt::Display for ProxyError {
         formatter.write_str(match self {
             Self::Thin => "radius: a tool for contact needs at least 1 % of its core's largest half length",
             Self::Coupling => "coupling: stiffness and rate must be positive and finite",
+            Self::Friction => "friction: the coefficient must be from 0 to 2",
             Self::Pose => "pose: needs finite numbers and a quaternion of length 1",
             Self::Intersects => "pose: tool and body intersect; move the tool out of the body",
             Self::Lost => "the closest pair is not known; start the proxy again",
@@ -134,7 +146,22 @@ impl ToolCoupling {
             max_step: in_a_tick(SPEED, STEP, rate_hz),
             max_slip: in_a_tick(SLIP, SLIP_STEP, rate_hz),
             fade_step: if fade < 1.0 { fade } else { 1.0 },
+            friction: 0.0,
         })
+    }
+
+    /// With dry friction (Coulomb) of a coefficient `μ` at the contacts: the proxy is held along the body while the force
+    /// of each contact lies in its cone, `‖F_t‖ ≤ μ F_n`, and slides at the cone's edge (W. S. Harwin and N. Melder,
+    /// *Improved haptic rendering for multi-finger manipulation using friction cone based god-objects*, 2002). A rolling
+    /// tool is not braked. `None` unless `μ` is from 0 to 2.
+    #[must_use]
+    pub const fn with_friction(self, coefficient: f32) -> Option<Self> {
+        // A NaN fails too.
+        if coefficient >= 0.0 && coefficient <= MAX_FRICTION {
+            Some(Self { friction: coefficient, ..self })
+        } else {
+            None
+        }
     }
 
     /// The spring of a device whose wrist has no motors: the proxy has the hand's orientation and there is no torque.
@@ -176,54 +203,183 @@ impl ToolCoupling {
     }
 
     /// The proxy's pose a tick later: the quadratic model of the spring's energy, minimised where no linearised gap
-    /// closes.
+    /// closes and friction holds. The contacts' forces are found from those that they have.
     ///
-    /// A share of a step is feasible and lower as the step is, so that the motion beyond `hand`'s since `before` is
-    /// bounded.
-    fn settle(&self, proxy: &BodyPose, before: &BodyPose, hand: &BodyPose, contacts: &[ToolContact]) -> BodyPose {
+    /// A share of a step is feasible and lower as the step is, so that the step and the motion beyond `hand`'s since
+    /// `before` are bounded.
+    fn settle(
+        &self,
+        proxy: &BodyPose,
+        [before, hand]: [&BodyPose; 2],
+        contacts: &mut [ToolContact],
+        radius: f32,
+    ) -> BodyPose {
         // An infinite stiffness gives 0: no contact turns the proxy.
-        let [soft, softer] = [1.0 / self.stiffness_n_per_m, 1.0 / self.stiffness_n_m_per_rad];
-        let (mut way, (vector, scalar)) = stretch(proxy, hand);
-        let mut turn = vector * (2.0 * scalar);
-        // One factor for both, so that the step still lowers the spring's energy.
-        let share = share_within([way, turn], self.max_step);
-        (way, turn) = (way * share, turn * share);
-        let mut pressed = [(0.0_f32, Vec3::ZERO, 0.0_f32); MAX_CONTACTS];
-        for (contact, (_, lever, inverse)) in contacts.iter().zip(&mut pressed) {
-            *lever = contact.lever();
-            *inverse = 1.0 / (soft + softer * lever.length_squared());
+        let soft = [1.0 / self.stiffness_n_per_m, 1.0 / self.stiffness_n_m_per_rad];
+        let (way, (vector, scalar)) = stretch(proxy, hand);
+        let mut free = Step { way, turn: vector * (2.0 * scalar), soft };
+        if self.friction > 0.0 {
+            self.press::<true>(&mut free, contacts, radius);
+        } else {
+            self.press::<false>(&mut free, contacts, radius);
         }
-        for _ in 0..SWEEPS {
-            let mut most = 0.0_f32;
-            for (contact, (pressed, lever, inverse)) in contacts.iter().zip(&mut pressed) {
-                let normal = contact.normal;
-                let gap = contact.gap + normal.dot(way) + lever.dot(turn);
-                let wanted = *pressed - gap * *inverse;
-                let next = if wanted > 0.0 { wanted } else { 0.0 };
-                let more = next - *pressed;
-                if more.abs() > 0.0 {
-                    (way, turn) = (way + normal * (more * soft), turn + *lever * (more * softer));
-                    *pressed = next;
-                    most = if more.abs() > most { more.abs() } else { most };
-                }
-            }
-            // One contact is solved at once.
-            if contacts.len() < 2 || most <= SETTLED_N {
-                break;
-            }
-        }
+        let Step { way, turn, .. } = free;
         let (moved, (turned, _)) = stretch(before, hand);
+        let [slip, slip_turn] = [0, 1].map(|axis| self.max_slip[axis] * soft[axis]);
         let length = |vector: Vec3| sqrt(vector.length_squared());
-        let [slip, slip_turn] = self.max_slip;
-        let max_turn = if self.has_torque() { 2.0 * length(turned) + slip_turn * softer } else { f32::INFINITY };
-        let share = share_within([way, turn], [length(moved) + slip * soft, max_turn]);
-        (way, turn) = (way * share, turn * share);
-        let position = (Vec3::from_array(proxy.position) + way).to_array();
-        let next = BodyPose { position, orientation: turned_by(turn * 0.5, &proxy.orientation) };
+        let least = |one: f32, other: f32| if one < other { one } else { other };
+        // One factor for both, so that the step still lowers the spring's energy.
+        let max_way = least(self.max_step[0], length(moved) + slip);
+        let mut share;
+        if self.has_torque() {
+            let turned = turned * 2.0;
+            share = share_within([way, turn], [max_way, least(self.max_step[1], length(turned) + slip_turn)]);
+            share = share_behind(turned, turn, slip_turn, share);
+        } else {
+            share = share_within([way, turn], [max_way, self.max_step[1]]);
+        }
+        share = share_behind(moved, way, slip, share);
+        // Steps of rounding would carry it out of where friction holds it.
+        if self.friction > 0.0 && share_within([way, turn], HELD) >= 1.0 {
+            return *proxy;
+        }
+        let position = (Vec3::from_array(proxy.position) + way * share).to_array();
+        let next = BodyPose { position, orientation: turned_by(turn * (0.5 * share), &proxy.orientation) };
         // Where nothing has to be taken back and the proxy need not turn, standing still is feasible.
         let may_stay = self.has_torque() && contacts.iter().all(|contact| contact.gap >= 0.0);
         if may_stay && self.energy_j(&next, hand) > self.energy_j(proxy, hand) { *proxy } else { next }
     }
+
+    /// The contacts' forces by projected Gauss-Seidel, and the step that they leave.
+    fn press<const HOLDS: bool>(&self, step: &mut Step, contacts: &mut [ToolContact], radius: f32) {
+        let mut all = [Pressed::NONE; MAX_CONTACTS];
+        for (contact, pressed) in contacts.iter().zip(&mut all) {
+            *pressed = Pressed::new::<HOLDS>(contact, step.soft, radius);
+            step.push(contact.normal * pressed.normal, pressed.lever * pressed.normal);
+            if HOLDS {
+                step.push(pressed.along, pressed.at.cross(pressed.along));
+            }
+        }
+        for _ in 0..SWEEPS[usize::from(HOLDS)] {
+            let mut most = 0.0_f32;
+            if HOLDS {
+                for (contact, pressed) in contacts.iter().zip(&mut all) {
+                    let changed = pressed.hold(step, contact.normal, self.friction);
+                    most = if changed > most { changed } else { most };
+                }
+            }
+            // Last, for no gap may close.
+            for (contact, pressed) in contacts.iter().zip(&mut all) {
+                let changed = pressed.press(step, contact);
+                most = if changed > most { changed } else { most };
+            }
+            // One contact without friction is solved at once.
+            let is_solved = contacts.len() < 2 && !HOLDS;
+            if is_solved || most <= SETTLED_N[usize::from(HOLDS)] {
+                break;
+            }
+        }
+        // What the sweeps leave closed is pushed open: gaps count more than the last of a force.
+        for _ in 0..REPAIRS {
+            let mut most = 0.0_f32;
+            for (contact, pressed) in contacts.iter().zip(&mut all) {
+                let closed = -pressed.gap(step, contact);
+                if closed > 0.0 {
+                    let more = closed * pressed.stiff[0];
+                    step.push(contact.normal * more, pressed.lever * more);
+                    pressed.normal += more;
+                    most = if closed > most { closed } else { most };
+                }
+            }
+            if most <= CLOSED_M {
+                break;
+            }
+        }
+        for (contact, pressed) in contacts.iter_mut().zip(&all) {
+            contact.force = contact.normal * pressed.normal;
+            if HOLDS {
+                contact.force = contact.force + pressed.along;
+            }
+        }
+    }
+}
+
+/// A step of the proxy: a way and a rotation, and how far a force and a torque move it, m/N and rad/(N·m).
+struct Step {
+    way: Vec3,
+    turn: Vec3,
+    soft: [f32; 2],
+}
+
+/// What is found of a contact: its force along the normal and along the body, N.
+#[derive(Clone, Copy)]
+struct Pressed {
+    normal: f32,
+    along: Vec3,
+    /// The torque of a unit force along the normal, and the place on the tool that touches, metres.
+    lever: Vec3,
+    at: Vec3,
+    /// Newtons that undo a metre along the normal, and along the body.
+    stiff: [f32; 2],
+}
+
+impl Step {
+    #[inline]
+    fn push(&mut self, force: Vec3, torque: Vec3) {
+        (self.way, self.turn) = (self.way + force * self.soft[0], self.turn + torque * self.soft[1]);
+    }
+}
+
+impl Pressed {
+    const NONE: Self = Self { normal: 0.0, along: Vec3::ZERO, lever: Vec3::ZERO, at: Vec3::ZERO, stiff: [0.0; 2] };
+
+    fn new<const HOLDS: bool>(contact: &ToolContact, [soft, softer]: [f32; 2], radius: f32) -> Self {
+        let stiff = |lever: Vec3| 1.0 / (soft + softer * lever.length_squared());
+        let (lever, force) = (contact.lever(), contact.force.dot(contact.normal));
+        let normal = if force > 0.0 { force } else { 0.0 };
+        let pressed = Self { normal, lever, stiff: [stiff(lever), 0.0], ..Self::NONE };
+        if !HOLDS {
+            return pressed;
+        }
+        let at = contact.arm - contact.normal * radius;
+        Self { along: along(contact.force, contact.normal), at, stiff: [pressed.stiff[0], stiff(at)], ..pressed }
+    }
+
+    /// The linearised gap at the end of a step, metres.
+    #[inline]
+    fn gap(&self, step: &Step, contact: &ToolContact) -> f32 {
+        contact.gap + contact.normal.dot(step.way) + self.lever.dot(step.turn)
+    }
+
+    /// Keeps the linearised gap open. Returns by how much the force has changed, N.
+    #[inline]
+    fn press(&mut self, step: &mut Step, contact: &ToolContact) -> f32 {
+        let wanted = self.normal - self.gap(step, contact) * self.stiff[0];
+        let next = if wanted > 0.0 { wanted } else { 0.0 };
+        let more = next - self.normal;
+        if more.abs() > 0.0 {
+            step.push(contact.normal * more, self.lever * more);
+            self.normal = next;
+        }
+        more.abs()
+    }
+
+    /// Holds the place that touches, as far as the cone lets it.
+    #[inline]
+    fn hold(&mut self, step: &mut Step, normal: Vec3, friction: f32) -> f32 {
+        let slid = along(step.way + step.turn.cross(self.at), normal);
+        let wanted = self.along - slid * self.stiff[1];
+        let next = wanted * share_within([wanted, Vec3::ZERO], [friction * self.normal, 0.0]);
+        let more = next - self.along;
+        step.push(more, self.at.cross(more));
+        self.along = next;
+        more.abs().max_element()
+    }
+}
+
+/// The part of a vector across a unit normal.
+fn along(vector: Vec3, normal: Vec3) -> Vec3 {
+    vector - normal * normal.dot(vector)
 }
 
 const fn is_positive(number: f32) -> bool {
@@ -246,6 +402,18 @@ fn share_within(vectors: [Vec3; 2], limits: [f32; 2]) -> f32 {
         }
     }
     share
+}
+
+/// The largest share of a step, at most `most`, that stretches the spring by no more than the hand's motion and `slip` do.
+fn share_behind(hand: Vec3, step: Vec3, slip: f32, most: f32) -> f32 {
+    let moved = hand.length_squared();
+    let beyond = slip * (slip + 2.0 * sqrt(moved));
+    if (hand - step * most).length_squared() <= moved + beyond {
+        return most;
+    }
+    // The root of ‖h − s x‖² = (‖h‖ + slip)²: not above `most`, for there it lies beyond.
+    let (along, squared) = (hand.dot(step), step.length_squared());
+    (along + sqrt(along * along + squared * beyond)) / squared
 }
 
 /// From one pose to another: the way, and the rotation as the vector and the scalar of its quaternion.
@@ -410,7 +578,9 @@ impl Proxy {
             return Err(ProxyError::Lost);
         }
         self.state.collect(&mut self.manifold, body, tool, &placement, coupling.max_step);
-        self.pose = coupling.settle(&self.pose, &self.hand, hand, self.manifold.contacts());
+        self.manifold.recall(body.size());
+        self.pose = coupling.settle(&self.pose, [&self.hand, hand], self.manifold.contacts_mut(), tool.radius());
+        self.manifold.remember();
         self.hand = *hand;
         Ok(())
     }

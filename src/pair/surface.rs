@@ -31,8 +31,8 @@ const MAX_TURN_RAD_PER_S: f32 = 40.0;
 /// for your body and tool before you choose a rate; a tick that is late is a fault.
 ///
 /// Without torque the force does not conserve energy along paths that turn the tool in contact (Barbagli & Salisbury
-/// 2003): keep the device's own damping above half a tick's stiffness. Friction, texture and the virtual coupling are
-/// those of a point, and refused.
+/// 2003): keep the device's own damping above half a tick's stiffness. Friction is the proxy's
+/// ([`Self::with_friction`]); a point's friction, texture and virtual coupling are refused.
 ///
 /// ```
 /// use palpate::body::{Aligned, Body, BodyBuffer, Edge, Face};
@@ -115,6 +115,17 @@ impl<'a> ToolSurface<'a> {
     #[must_use]
     pub const fn with_cells(self, cells: u16) -> Self {
         Self { cells, ..self }
+    }
+
+    /// The same with dry friction at the contacts ([`ToolCoupling::with_friction`]).
+    ///
+    /// # Errors
+    /// A coefficient that is not from 0 to 2.
+    pub const fn with_friction(self, coefficient: f32) -> Result<Self, ProxyError> {
+        match self.coupling.with_friction(coefficient) {
+            Some(coupling) => Ok(Self { coupling, ..self }),
+            None => Err(ProxyError::Friction),
+        }
     }
 
     /// The body.

@@ -5,7 +5,8 @@ use super::common_normal;
 use super::step::{Foot, Moved, Pair};
 use super::tool::{Core, Region, Tool, unit};
 use crate::body::{Body, EdgeKind};
-use crate::math::{Vec3, sqrt, sqrt_from_above};
+use crate::math::{Vec3, saturate, sqrt, sqrt_from_above};
+use crate::patch::SurfacePoint;
 use crate::track::Placement;
 
 /// Corners of a core that are tracked.
@@ -307,11 +308,11 @@ impl Part {
     }
 
     /// Not above its distance from a convex body: that of the plane through the body's point at the last visit, behind
-    /// which all of the body lies. Without one it comes nearer by no more than the core moves. A border's point takes the
-    /// core's nearest to it, and may slide by as much.
+    /// which all of the body lies. Without one it comes nearer by no more than the core moves. A border's point slides
+    /// along its tangent and takes the core's nearest to it, and may be off by as much.
     fn least_distance(&mut self, region: &Region, placement: &Placement) -> f32 {
         if self.is_border() {
-            let a = self.pair.a.point();
+            let a = self.on_border(placement);
             let b = region.nearest(placement.point_to_b(a)).0;
             self.pair.b = Foot::in_solid(b);
             let squared = (placement.point_to_a(b) - a).length_squared() - self.since * self.since;
@@ -323,6 +324,19 @@ impl Part {
         let (normal, half) = (placement.direction_to_b(self.normal), self.half);
         let across = normal.x.abs() * half.x + normal.y.abs() * half.y + normal.z.abs() * half.z;
         self.normal.dot(placement.origin - self.pair.a.point()) + normal.dot(self.middle) - across
+    }
+
+    /// The point of a border's tangent nearest to the core's: where the body's point has slid since the last visit.
+    pub fn on_border(&self, placement: &Placement) -> Vec3 {
+        let (a, axis) = (&self.pair.a, usize::from(self.held[0]));
+        let SurfacePoint { point, tangent_u, tangent_v } = a.curved.surface;
+        let tangent = [tangent_u, tangent_v][axis];
+        let (squared, from) = (tangent.length_squared(), a.parameters[axis]);
+        if self.is_fresh() || squared <= f32::MIN_POSITIVE {
+            return point;
+        }
+        let along = tangent.dot(placement.point_to_a(self.pair.b.point()) - point) / squared;
+        point + tangent * (saturate(from + along, 0.0, 1.0) - from)
     }
 
     /// Whether it can be neither the nearest nor in contact, and its pair was left where it was.
@@ -412,7 +426,10 @@ impl Scene<'_> {
             let gap = at_least - tool.radius();
             let slack = STALE_M + if gap > 0.0 { gap } else { 0.0 };
             if !part.is_settled || part.since * part.since >= 2.0 * tool.radius() * slack {
-                let mut entering = (at_least - part.since, Some(index));
+                // One that has not arrived says nothing of how near the body is.
+                let short = part.since * part.since * 0.5 / tool.radius();
+                let order = if part.is_settled { at_least - short } else { 0.0 };
+                let mut entering = (order, Some(index));
                 for slot in &mut due {
                     if entering.0 < slot.0 {
                         core::mem::swap(slot, &mut entering);
@@ -446,7 +463,8 @@ impl Scene<'_> {
             self.follow(&region, &mut part.pair).1
         };
         self.note(part);
-        part.is_settled = !switched;
+        // On the far side it has not arrived.
+        part.is_settled = !switched && part.normal != Vec3::ZERO;
     }
 
     /// Takes the plane of a part at its place.

@@ -226,7 +226,8 @@ impl RenderingError {
             Self::Ease => "easing's onset must be finite and not negative, its rate finite and positive",
             Self::Slew => "the slew limit must be positive",
             Self::ShapedTool => {
-                "friction, texture and virtual coupling are those of a point; leave them out with a tool that has a shape"
+                "friction, texture and virtual coupling are those of a point; leave them out with a tool that has a shape, whose \
+                 friction is `ToolSurface::with_friction`"
             }
         }
     }
