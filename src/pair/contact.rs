@@ -1,8 +1,9 @@
 //! The contacts of a tool with a body: where, in which direction, and how far.
 
+use super::parts::Part;
 use super::step::Pair;
 use super::tool::{Tool, unit};
-use super::tracker::{Part, ToolWitness};
+use super::tracker::ToolWitness;
 use crate::body::Body;
 use crate::math::{Vec3, sqrt, sqrt_from_above};
 use crate::track::Placement;
@@ -181,14 +182,14 @@ impl ToolWitness {
         let of_part = |part: &Option<Part>| ToolContact::of_part(part.as_ref()?, &within);
         let pair = ToolContact::of(self.pair.a.point(), self.pair.b.point(), &within, |_| self.is_in_front);
         enter(&mut pair.into_iter());
-        enter(&mut self.corners.iter().take(usize::from(self.count[0])).filter_map(of_part));
+        enter(&mut self.parts.corners.iter().take(usize::from(self.parts.count[0])).filter_map(of_part));
         enter(
             &mut self
                 .vertices(&region, placement)
                 .filter_map(|(a, b)| ToolContact::of(a.point(), b, &within, |away| a.outward(body).dot(away) > 0.0)),
         );
-        enter(&mut self.borders.iter().filter_map(of_part));
-        enter(&mut self.edges.iter().take(usize::from(self.count[1])).filter_map(of_part));
+        enter(&mut self.parts.borders.iter().filter_map(of_part));
+        enter(&mut self.parts.edges.iter().take(usize::from(self.parts.count[1])).filter_map(of_part));
         enter(&mut self.rivals.iter().flatten().filter_map(of_pair));
     }
 }

@@ -3,9 +3,11 @@
 
 use super::cells::Visit;
 use super::common_normal;
+use super::parts::{Part, rest};
+use super::scene::{NEARER, Scene, TOUCHING};
 use super::step::{Foot, Moved, Pair};
 use super::tool::{Core, Region, Tool};
-use super::tracker::{Closest, LOOKAHEAD, MAX_CELLS, NEARER, Part, Scene, TOUCHING, ToolStatus, ToolWitness};
+use super::tracker::{Closest, LOOKAHEAD, MAX_CELLS, ToolStatus, ToolWitness};
 use crate::body::Body;
 use crate::math::Vec3;
 use crate::track::Placement;
@@ -158,7 +160,7 @@ impl Location {
                 Stage::Corner { index: 0 }
             }
             Stage::Corner { index } => {
-                if let Some(corner) = state.corners.get_mut(usize::from(index)).and_then(Option::as_mut) {
+                if let Some(corner) = state.parts.corners.get_mut(usize::from(index)).and_then(Option::as_mut) {
                     corner.pair = scene.beneath(corner.pair.b);
                     scene.note(corner);
                     return Stage::Corner { index: index + 1 };
@@ -215,23 +217,23 @@ impl Location {
             }
         }
         let a = state.pair.a;
-        state.corners =
+        state.parts.corners =
             tool.corners().map(|corner| corner.map(|b| Part::new(Pair { a, b, halvings: 0 }, b.point(), Vec3::ZERO)));
-        state.count = [state.corners.iter().flatten().count() as u8, 0];
+        state.parts.count = [state.parts.corners.iter().flatten().count() as u8, 0];
     }
 
     /// A step of the closest pair of the body and an edge, from that of the core.
     fn edge(&mut self, scene: &mut Scene, tool: &Tool, state: &mut ToolWitness, (index, step): (u8, u8)) -> Stage {
         let slot = usize::from(index);
-        let Some((middle, half)) = tool.edges().nth(slot).filter(|_| slot < state.edges.len()) else {
+        let Some((middle, half)) = tool.edges().nth(slot).filter(|_| slot < state.parts.edges.len()) else {
             let least = scene.distance(&state.pair);
-            for part in state.parts_mut().flatten() {
-                part.rests_for = Scene::rest(part.distance, tool, least);
+            for part in state.parts.iter_mut().flatten() {
+                part.rests_for = rest(part.distance, tool, least);
             }
             return Stage::Done;
         };
         let edge = Region::Solid { middle, half };
-        let mut pair = match &state.edges[slot] {
+        let mut pair = match &state.parts.edges[slot] {
             Some(part) if step > 0 => part.pair,
             _ => Pair::facing(state.pair.a, &edge, scene.placement),
         };
@@ -242,8 +244,8 @@ impl Location {
         }
         let mut part = Part::new(pair, middle, half);
         scene.note(&mut part);
-        state.edges[slot] = Some(part);
-        state.count[1] = index + 1;
+        state.parts.edges[slot] = Some(part);
+        state.parts.count[1] = index + 1;
         if step + 1 < ROUNDS + MAX_STALLS {
             Stage::Edge { index, step: step + 1 }
         } else {

@@ -12,10 +12,14 @@
 mod cells;
 mod common_normal;
 mod contact;
+mod coupling;
 mod hand_over;
 mod location;
+mod parts;
+mod press;
 mod proxy;
 mod quadratic;
+mod scene;
 mod step;
 mod surface;
 mod tool;
@@ -24,7 +28,8 @@ mod tracker;
 #[cfg(doc)]
 use crate::body::Body;
 pub use contact::{MAX_CONTACTS, Manifold, ToolContact};
-pub use proxy::{Proxy, ProxyError, ToolCoupling};
+pub use coupling::ToolCoupling;
+pub use proxy::{Proxy, ProxyError};
 pub use step::{Foot, Pair};
 pub use surface::{HeldTool, ToolSurface};
 pub use tool::{Core, Tool, ToolError};
