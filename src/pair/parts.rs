@@ -53,7 +53,11 @@ pub(super) struct Part {
 }
 
 impl Parts {
-    pub const NONE: Self = Self { corners: [None; CORNERS], edges: [None; EDGES], borders: [None; 4], count: [0; 2] };
+    /// No part. No constant: that would be copied, all 8 kB of it, where only the marks of its places have to be set.
+    #[inline(always)]
+    pub const fn none() -> Self {
+        Self { corners: [None; CORNERS], edges: [None; EDGES], borders: [None; 4], count: [0; 2] }
+    }
 
     /// The corners, the borders and the edges: those that there are come first.
     pub fn iter(&self) -> impl Iterator<Item = &Option<Part>> {

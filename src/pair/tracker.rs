@@ -161,7 +161,7 @@ impl ToolWitness {
     const fn new(pair: Pair, placement: &Placement) -> Self {
         Self {
             pair,
-            parts: Parts::NONE,
+            parts: Parts::none(),
             vertices: ([pair.a; 4], u16::MAX),
             vertices_rest_for: 0.0,
             rivals: [None; RIVALS],
