@@ -104,9 +104,10 @@ fn a_tool_in_the_loop_stays_outside_and_its_force_does_not_step() {
             ("over the rim", DVec3::new(0.06, 0.02, 0.0), DVec3::new(-1.0, 0.0, 1.0).normalize()),
             ("on the corner", DVec3::new(0.06, 0.0, 0.0), DVec3::new(-1.0, 1.0, 1.0).normalize()),
         ] {
-            for rad_per_s in [1.5, 6.0] {
+            for (rad_per_s, friction) in [(1.5, 0.0), (6.0, 0.0), (6.0, 0.4)] {
                 let settings = settings(centre, at);
                 let surface = ToolSurface::new(&body, tool, &settings).expect("a thick tool");
+                let surface = surface.with_friction(friction).expect("a coefficient");
                 let config = Config { settings, rendering: FEEL.rendering, safety: Safety::DEFAULT, ..Config::DEFAULT };
                 let servo: Loop = Servo::try_new(&DEVICE, &surface, config).expect("within the device's limits");
                 let start = -inward * (RADIUS_M + reach + 0.006);
@@ -141,7 +142,7 @@ fn a_tool_in_the_loop_stays_outside_and_its_force_does_not_step() {
                     plant.advance(state.duties().map(|duty| duty.0));
                 }
                 println!(
-                    "{name}, {scene}, {rad_per_s} rad/s: holds from tick {}, {touched} ticks in contact, gap {:.2} µm, up \
+                    "{name}, {scene}, {rad_per_s} rad/s, friction {friction}: holds from tick {}, {touched} ticks in contact, gap {:.2} µm, up \
                      to {most:.2} N, {:.1} mN a tick, {} lost",
                     holds_from.map_or(-1, i64::from),
                     gap * 1e6,
@@ -301,6 +302,9 @@ fn what_is_of_a_point_is_refused_with_a_shaped_tool() {
     assert_eq!(with(plain), None);
     let refused = Some(ConfigError::Rendering(RenderingError::ShapedTool));
     assert_eq!(with(palpate::servo::Rendering { friction: Some(friction), ..plain }), refused);
+    for coefficient in [-0.1, 2.1, f32::NAN] {
+        assert_eq!(surface.with_friction(coefficient).err(), Some(ProxyError::Friction));
+    }
     // A thin tool, and settings of another rate.
     let thin = Tool::new(Core::Segment { half: 0.02 }, 0.000_1).expect("a tool");
     assert_eq!(ToolSurface::new(&body, thin, &settings).err(), Some(ProxyError::Thin));
