@@ -28,6 +28,7 @@ pub struct ShapedTool {
     radius_m: f32,
     /// Largest speed of the hand's turns, rad/s.
     turn: f64,
+    friction: f32,
 }
 
 /// Half lengths in metres.
@@ -66,14 +67,15 @@ pub fn core(text: &str) -> Result<CoreOf, String> {
 }
 
 impl ShapedTool {
-    /// A core, its radius in mm, and how fast the hand turns it, rad/s.
+    /// A core, its radius in mm, how fast the hand turns it, rad/s, and its coefficient of friction.
     ///
     /// # Errors
-    /// A radius or speed that is none.
-    pub fn new(core: CoreOf, radius_mm: f32, turn: f64) -> anyhow::Result<Self> {
+    /// A radius, speed or coefficient that is none.
+    pub fn new(core: CoreOf, radius_mm: f32, turn: f64, friction: f32) -> anyhow::Result<Self> {
         // Half of what the gimbal takes for a fault.
         ensure!((0.0..=15.0).contains(&turn), "--turn {turn}: a hand turns a tool by 0 to 15 rad/s");
-        let tool = Self { core, radius_m: radius_mm * 1e-3, turn };
+        ensure!((0.0..=2.0).contains(&friction), "--friction {friction}: give a coefficient from 0 to 2");
+        let tool = Self { core, radius_m: radius_mm * 1e-3, turn, friction };
         tool.tool().with_context(|| format!("--radius {radius_mm}"))?;
         Ok(tool)
     }
@@ -96,8 +98,8 @@ impl ShapedTool {
         body: &'static Body<'static>,
         settings: &Settings,
     ) -> anyhow::Result<&'static ToolSurface<'static>> {
-        let surface = ToolSurface::new(body, self.tool()?, settings);
-        Ok(Box::leak(Box::new(surface.context("the tool on this body (--radius)")?)))
+        let surface = ToolSurface::new(body, self.tool()?, settings).context("the tool on this body (--radius)")?;
+        Ok(Box::leak(Box::new(surface.with_friction(self.friction)?)))
     }
 
     /// How far from the body the probe is where the hand aims at its surface, metres: half of the core sticks out.
@@ -132,8 +134,9 @@ impl ShapedTool {
              let Ok(tool) = Tool::new(Core::{core}, {:?}) else {{ panic!(\"tool\") }};\n    \
              let settings = Settings {{ rate_hz: {rate_hz:?}, stiffness_n_per_m: {stiffness_n_per_m:?}, ..Settings::DEFAULT }};\n    \
              let Ok(surface) = Surface::new(&rest::BODY, tool, &settings) else {{ panic!(\"tool on body\") }};\n    \
+             let Ok(surface) = surface.with_friction({:?}) else {{ panic!(\"friction\") }};\n    \
              surface\n}}\n",
-            self.radius_m
+            self.radius_m, self.friction
         )
     }
 
@@ -146,7 +149,8 @@ impl ShapedTool {
             CoreOf::Segment(half) => format!("capsule, half length {} mm", mm(half)),
             CoreOf::Box([x, y, z]) => format!("box, half lengths {} × {} × {} mm", mm(x), mm(y), mm(z)),
         };
-        format!("{core}, radius {radius} mm, on a gimbal; turned at up to {} rad/s", self.turn)
+        let friction = if self.friction > 0.0 { format!(", friction {}", self.friction) } else { String::new() };
+        format!("{core}, radius {radius} mm{friction}, on a gimbal; turned at up to {} rad/s", self.turn)
     }
 }
 
@@ -178,7 +182,7 @@ mod tests {
 
     #[test]
     fn a_hand_turns_no_faster_than_it_is_asked_to() {
-        let tool = ShapedTool::new(CoreOf::Point, 3.0, 6.0).expect("a tool");
+        let tool = ShapedTool::new(CoreOf::Point, 3.0, 6.0, 0.0).expect("a tool");
         let angles = |time: f64| tool.counts(time).map(|count| f64::from(count) * TAU / COUNTS);
         let speeds = (0..40_000).map(|tick| {
             let [now, then] = [f64::from(tick), f64::from(tick) + 100.0].map(|tick| angles(tick * 1e-4));

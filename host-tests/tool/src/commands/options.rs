@@ -87,6 +87,9 @@ pub struct SceneOptions {
     /// Maximum speed at which the hand turns the tool, rad/s
     #[arg(long, requires = "tool", default_value_t = 1.5)]
     pub turn: f64,
+    /// Coefficient of dry friction between tool and body, 0 to 2
+    #[arg(long, default_value_t = 0.0, requires = "tool", value_name = "COEFFICIENT")]
+    pub friction: f32,
 }
 
 /// A point from `x,y,z` in mm, as metres.
@@ -171,7 +174,7 @@ impl SceneOptions {
             .with_context(|| format!("{}: up to {} N/m and {} N·s/m", device.name, limits.stiffness, limits.damping))?;
         let [ticks, enable_at] = self.ticks(settings.rate_hz)?;
         let protection = self.protected.then(|| device.protection());
-        let tool = self.tool.map(|core| ShapedTool::new(core, self.radius, self.turn)).transpose()?;
+        let tool = self.tool.map(|core| ShapedTool::new(core, self.radius, self.turn, self.friction)).transpose()?;
         if tool.is_some() {
             felt.rigid_body()?;
         }
