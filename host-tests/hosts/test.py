@@ -33,10 +33,10 @@ def test_cpp():
     subprocess.run(cargo, cwd=library, check=True)
     file = (ROOT / "boards/bodies/capped_box.palp").read_bytes()
     with tempfile.TemporaryDirectory() as folder:
-        # As `palpate c-library` writes it: a box has 6 faces and 12 edges.
+        # As `palpate c-library` writes it: a box has 6 faces and 12 edges, and its dome is 33.5 mm high.
         numbers = ", ".join(map(str, file))
         Path(folder, "part.h").write_text(
-            f"enum {{ PART_FACES = 6, PART_EDGES = 12 }};\nalignas(4) static const uint8_t part_palp[] = {{{numbers}}};\n"
+            f"#define PART_TOP {{0.03f, 0.02f, 0.0335f}}\nenum {{ PART_FACES = 6, PART_EDGES = 12 }};\nalignas(4) static const uint8_t part_palp[] = {{{numbers}}};\n"
         )
         program = f"{folder}/loop"
         options = ["-std=c++11", "-pedantic", "-Wall", "-Wextra", "-Werror", "-I", f"{library}/include", "-I", folder]

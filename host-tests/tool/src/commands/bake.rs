@@ -13,6 +13,7 @@ use clap::Args;
 use glam::DVec3;
 use palpate::body::{Body, TickLimit, TickWork};
 use palpate::math::Vec3;
+use palpate::patch::Patch as _;
 use palpate_bake::body::{BakedBody, BodyBytes};
 use palpate_bake::file::FileFault;
 use palpate_bake::graph;
@@ -29,7 +30,8 @@ use std::process::ExitCode;
 /// bytes anywhere, on any number of cores.
 ///
 /// A name that ends in .palp gives a binary body file, for palpate::body::Body::from_bytes and every command that takes
-/// a model; one that ends in .h the same as an array of C, part_palp, with PART_FACES and PART_EDGES for its buffer.
+/// a model; box.h gives the same as an array of C, box_palp, with BOX_FACES and BOX_EDGES for its buffer and BOX_TOP, a
+/// point of its top near the middle, m.
 ///
 /// --soft: the body deforms. Of a closed body of one elastic material (youngs_modulus_pa, poissons_ratio, density_kg_per_m3,
 /// damping_ratio) the modes of lowest frequency that a quadratic displacement of space holds go to a modes file, beside
@@ -121,7 +123,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     if let Some(out) = arguments.out.as_ref().filter(|out| is_baked(out)) {
         write_whole(out, &file(&loaded)?)?;
     } else if let Some(out) = arguments.out.as_ref().filter(|out| is_header(out)) {
-        write_whole(out, array(&file(&loaded)?, &loaded.body).as_bytes())?;
+        write_whole(out, array(&file(&loaded)?, &loaded.body, out)?.as_bytes())?;
     } else if let Some(out) = &arguments.out {
         let origin = Origin {
             model_file: &loaded.file.name,
@@ -252,13 +254,13 @@ pub(super) fn file_of(path: &Path) -> anyhow::Result<Vec<u8>> {
     Ok(file(&located(path)?)?)
 }
 
-/// A model's body as a C header, as [`run`] writes it with its defaults.
+/// A model's body as a C header part.h, as [`run`] writes it with its defaults.
 ///
 /// # Errors
 /// The reason why the model is refused.
-pub(super) fn header(path: &Path) -> anyhow::Result<String> {
+pub(super) fn part_header(path: &Path) -> anyhow::Result<String> {
     let loaded = located(path)?;
-    Ok(array(&file(&loaded)?, &loaded.body))
+    array(&file(&loaded)?, &loaded.body, Path::new("part.h"))
 }
 
 /// A model with the default locator.
@@ -271,12 +273,16 @@ fn located(path: &Path) -> anyhow::Result<Loaded> {
     Ok(loaded)
 }
 
-/// A body's file as an array of C.
-fn array(file: &[u8], body: &BakedBody) -> String {
+/// A body's file as an array of C, named after the header.
+fn array(file: &[u8], body: &BakedBody, header: &Path) -> anyhow::Result<String> {
+    let name = c_name(header);
+    let capitals = name.to_uppercase();
+    let [x, y, z] = top(body)?.to_array();
     let mut text = format!(
         "// A body's file as `palpate bake` wrote it.\n#pragma once\n#include <stdint.h>\n\n\
-         #define PART_FACES {}\n#define PART_EDGES {}\n\n\
-         static const uint8_t part_palp[] __attribute__((aligned(4))) = {{\n",
+         #define {capitals}_FACES {}\n#define {capitals}_EDGES {}\n\
+         #define {capitals}_TOP {{{x:.6}f, {y:.6}f, {z:.6}f}} // of its top near the middle, m\n\n\
+         static const uint8_t {name}_palp[] __attribute__((aligned(4))) = {{\n",
         body.faces.len(),
         body.edges.len()
     );
@@ -288,7 +294,27 @@ fn array(file: &[u8], body: &BakedBody) -> String {
         text.push('\n');
     }
     text.push_str("};\n");
-    text
+    Ok(text)
+}
+
+/// A file's name as a lower-case identifier of C.
+fn c_name(file: &Path) -> String {
+    let stem = file.file_stem().unwrap_or_default().to_string_lossy().to_lowercase();
+    let name: String = stem.chars().map(|letter| if letter.is_ascii_alphanumeric() { letter } else { '_' }).collect();
+    if name.starts_with(|first: char| first.is_ascii_alphabetic()) { name } else { format!("part_{name}") }
+}
+
+/// Of a grid of points of a body, that of the highest hundredth which is nearest to its middle from above, m.
+fn top(body: &BakedBody) -> anyhow::Result<Vec3> {
+    let patches = body.faces.iter().map(|face| face.patch.to_patch()).collect::<Result<Vec<_>, _>>()?;
+    let grid = || (0..=32).flat_map(|i| (0..=32).map(move |j| (i as f32 / 32.0, j as f32 / 32.0)));
+    let points: Vec<_> = patches.iter().flat_map(|patch| grid().map(|(u, v)| patch.evaluate(u, v).point)).collect();
+    let low = points.iter().copied().fold(Vec3::INFINITY, Vec3::min);
+    let high = points.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
+    let (middle, floor) = (0.5 * (low + high), high.z - 0.01 * (high.z - low.z));
+    let aside = |point: &Vec3| (*point - middle).truncate().length_squared();
+    let highest = points.iter().filter(|point| point.z >= floor);
+    highest.min_by(|a, b| aside(a).total_cmp(&aside(b))).copied().context("a body without a finite point")
 }
 
 fn has_ending(path: &Path, ending: &str) -> bool {

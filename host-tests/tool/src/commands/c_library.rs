@@ -36,7 +36,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let model = model
         .clone()
         .map_or_else(|| Ok(repository::root()?.join("boards/bodies/capped_box.palp")), Ok::<_, anyhow::Error>)?;
-    let part = bake::header(&model)?;
+    let part = bake::part_header(&model)?;
     if out.extension().is_some_and(|extension| extension == "zip") {
         let folder = tempfile::tempdir()?;
         let package = folder.path().join("palpate");

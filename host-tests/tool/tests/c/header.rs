@@ -6,6 +6,7 @@ use palpate::servo::Fault;
 use palpate_tool::in_c::{self, Core};
 use std::collections::BTreeMap;
 use std::fs;
+use std::process::Command;
 use syn::{Expr, Fields, FnArg, Item, ItemMacro, ReturnType, Type};
 
 /// What every number of the header begins with.
@@ -319,5 +320,31 @@ fn compilers_of_c_and_of_cpp_take_the_header_as_it_is() {
             gcc.arg(format!("-std={standard}")).args(["-pedantic", "-fsyntax-only"]);
             run(gcc.arg(&source));
         }
+    }
+}
+
+#[test]
+fn two_baked_bodies_go_into_one_file() {
+    if !is_wanted("two bodies in one file of C") {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    for (model, out) in [("capped_box", "box.h"), ("sphere", "3 Caps-b.h")] {
+        let mut bake = Command::new(env!("CARGO_BIN_EXE_palpate"));
+        run(bake.args(["bake", model, "--out", out]).current_dir(&folder));
+    }
+    let source = folder.path().join("both.c");
+    let text = "#include \"box.h\"\n#include \"3 Caps-b.h\"\n
+_Static_assert(BOX_FACES == 6 && BOX_EDGES == 12, \"the box\");
+_Static_assert(PART_3_CAPS_B_FACES == 1 && PART_3_CAPS_B_EDGES == 4, \"the patch\");
+const float tops[2][3] = {BOX_TOP, PART_3_CAPS_B_TOP};
+const uint8_t *const files[2] = {box_palp, part_3_caps_b_palp};
+";
+    fs::write(&source, text).expect("a source");
+    for (program, options) in
+        [("gcc", ["-std=c11", "-pedantic"]), ("g++", ["-std=c++17", "-D_Static_assert=static_assert"])]
+    {
+        let mut compiler = in_c::compiler(Core::Host, program).expect("in the repository");
+        run(compiler.args(options).arg("-fsyntax-only").arg(&source));
     }
 }

@@ -10,7 +10,7 @@ use palpate::servo::{Config, Input, ResetReason, Servo, Settings};
 /// Line that the example prints.
 pub fn in_rust() -> String {
     let Recommended { settings, rendering } = TOUCH;
-    let settings = Settings { body_origin_m: vec3(-0.005, -0.02, 0.16), ..settings };
+    let settings = Settings { body_origin_m: vec3(0.025, 0.0, 0.1935) - vec3(0.03, 0.02, 0.0335), ..settings };
     let inertia = PROTECTION.polarity.expect("a polarity check").inertia_kg_m2;
     with_capped_box(|body| {
         let config = Config { settings, rendering, ..Config::DEFAULT };

@@ -258,6 +258,7 @@ fn the_ending_of_the_output_says_what_bake_writes() -> Result<(), Box<dyn Error>
     let (_, array) = text.split_once("= {").ok_or("no array")?;
     let bytes: Vec<u8> = array.split([',', '\n']).filter_map(|byte| byte.trim().parse().ok()).collect();
     assert!(bytes == fs::read(repository().join("boards/bodies/capped_box.palp"))?);
+    assert!(text.contains("#define PART_TOP {0.030000f, 0.020000f, 0.033500f}"), "{text}");
     for out in ["part.txt", "part"] {
         let run = bake(out)?;
         let said = String::from_utf8_lossy(&run.stderr);

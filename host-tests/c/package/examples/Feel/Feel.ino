@@ -6,6 +6,7 @@
 static palpate_body body;
 static palpate_word buffer[PALPATE_BODY_BUFFER_WORDS(PART_FACES, PART_EDGES)];
 static palpate_tracker tracker;
+static const float top[3] = PART_TOP;
 
 static void must(palpate_status status) {
   if (status == PALPATE_OK) return;
@@ -22,7 +23,7 @@ void setup() {
 void loop() {
   static float angle = 0.0f;
   angle += 0.01f;
-  const float probe[3] = {0.04f * cosf(angle), 0.04f * sinf(angle), 0.06f};
+  const float probe[3] = {top[0] + 0.02f * cosf(angle), top[1] + 0.02f * sinf(angle), top[2] + 0.02f};
   palpate_touch touch;
   must(palpate_step(&tracker, probe, &touch));
   Serial.println(touch.gap * 1000.0f); // millimetres

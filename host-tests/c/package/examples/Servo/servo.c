@@ -14,8 +14,9 @@ palpate_status servo_start(float *rate)
     palpate_settings settings;
     palpate_status status = device_settings(&settings);
     if (status != PALPATE_OK) return status;
-    /* The top of the box lies 12 mm below the probe in the pose where the counts are zero. */
-    settings.body_origin[0] = -0.005f, settings.body_origin[1] = -0.02f, settings.body_origin[2] = 0.16f;
+    /* The top of the part lies at `start`, 11.5 mm below the probe of a WoodenHaptics whose counts are zero. */
+    const float start[3] = {0.025f, 0.0f, 0.1935f}, top[3] = PART_TOP;
+    for (int i = 0; i < 3; i++) settings.body_origin[i] = start[i] - top[i];
     *rate = settings.rate;
     status = palpate_body_load(&body, sizeof body, part_palp, sizeof part_palp, buffer, sizeof buffer);
     if (status != PALPATE_OK) return status;

@@ -12,7 +12,8 @@ int main(void)
     palpate_output output;
     palpate_state state = {0};
     device_settings(&settings);
-    settings.body_origin[0] = -0.005f, settings.body_origin[1] = -0.02f, settings.body_origin[2] = 0.16f; /* m */
+    const float start[3] = {0.025f, 0.0f, 0.1935f}, top[3] = PART_TOP; /* m; 11.5 mm below the probe at zero counts */
+    for (int i = 0; i < 3; i++) settings.body_origin[i] = start[i] - top[i];
     palpate_status status = palpate_body_load(&body, sizeof body, part_palp, sizeof part_palp, buffer, sizeof buffer);
     if (!status)
         status = START_DEVICE(&servo, sizeof servo, &MECHANISM, &DEVICE, &body, &settings, PALPATE_RESET_POWER_ON);

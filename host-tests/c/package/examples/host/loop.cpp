@@ -9,14 +9,16 @@
 
 constexpr float rate = 4000.0f, stiffness = 500.0f, damping = 2.0f, max_force = 3.0f, soft_start_s = 0.2f;
 
-// Your driver's two calls instead. A grip of 100 g in a hand, which draws it from under the box up to 10 mm inside.
+constexpr float top[3] = PART_TOP;
+
+// Your driver's two calls instead. A grip of 100 g in a hand, which draws it from above the part down to 10 mm inside.
 struct Device {
-    float at[3] = {0.03f, 0.02f, -0.02f}, moves[3] = {0, 0, 0};
+    float at[3] = {top[0], top[1], top[2] + 0.02f}, moves[3] = {0, 0, 0};
 
     void position(float (&probe)[3]) const { std::copy(at, at + 3, probe); }
 
     void force(const float (&given)[3]) {
-        const float hand[3] = {0.03f, 0.02f, 0.01f};
+        const float hand[3] = {top[0], top[1], top[2] - 0.01f};
         for (int i = 0; i < 3; i++) {
             moves[i] += (given[i] + 300.0f * (hand[i] - at[i]) - 8.0f * moves[i]) / (0.1f * rate);
             at[i] += moves[i] / rate;
