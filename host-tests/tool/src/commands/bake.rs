@@ -152,11 +152,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
             None if is_body => String::new(),
             None => table_report::of_patches(&loaded.surveys())?,
         };
-        let mut text = text + &table_report::of_tick(&tables, limit)? + &table_report::on_boards(bytes(&loaded))?;
-        if is_body {
-            text += &table_report::as_file(file(&loaded)?.len(), &loaded.body)?;
-        }
-        print(text.as_bytes())?;
+        let text = text + &table_report::of_tick(&tables, limit)? + &table_report::on_boards(bytes(&loaded))?;
+        // A file has a locator even of a single patch.
+        let as_file = if is_body { file(&loaded)? } else { file_of(&arguments.model)? };
+        print((text + &table_report::as_file(as_file.len(), &loaded.body)?).as_bytes())?;
     }
     let flaws = loaded.flaws();
     for flaw in &flaws {

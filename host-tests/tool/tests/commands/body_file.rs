@@ -36,6 +36,20 @@ fn a_file_bakes_and_checks_as_its_model_does() -> Result<(), Box<dyn Error>> {
 }
 
 #[test]
+fn the_report_on_a_single_patch_has_the_size_of_its_file() -> Result<(), Box<dyn Error>> {
+    let folder = tempfile::tempdir()?;
+    let [out, source] = ["sphere.palp", "sphere.rs"].map(|name| folder.path().join(name));
+    for file in [&out, &source] {
+        let (report, _) = said(&["bake", "sphere", "--table-report", "--out", file.to_str().unwrap_or_default()])?;
+        let row = |kind: &str| report.lines().find_map(|line| line.strip_prefix(kind)?.split_whitespace().next());
+        assert_eq!(row("as a file"), Some(fs::metadata(&out)?.len().to_string().as_str()), "{report}");
+        // A face of 57 words and four edges of 13, as palpate.h has them.
+        assert_eq!(row("RAM for it"), Some((4 * (57 + 4 * 13)).to_string().as_str()), "{report}");
+    }
+    Ok(())
+}
+
+#[test]
 fn a_file_answers_as_its_model_does() -> Result<(), Box<dyn Error>> {
     let folder = tempfile::tempdir()?;
     let path = |name: &str| folder.path().join(name).to_str().unwrap_or_default().to_owned();
