@@ -172,7 +172,8 @@ enum {
 
 /** Returns a status in a sentence, a static string; "unknown" of a code that is none. */
 const char *palpate_status_text(int32_t status);
-/** palpate_output::fault and palpate_state::fault; 0 is none. A fault is latched: only a new start leaves it. */
+/** palpate_output::fault and palpate_state::fault; 0 is none. A fault is latched: only a new start leaves it, and after
+ *  #PALPATE_FAULT_WATCHDOG_RESET and #PALPATE_FAULT_BROWN_OUT palpate_servo_note() with #PALPATE_ACKNOWLEDGED. */
 enum {
     PALPATE_FAULT_FRAME_LOST = 1,            /**< Sensor frame lost or late. */
     PALPATE_FAULT_FRAME_DAMAGED = 2,         /**< Sensor frame damaged. */
@@ -621,8 +622,8 @@ typedef struct palpate_settings {
     float max_force;          /**< N, not negative; the device's own limit applies as well. */
     float velocity_corner;    /**< Of the low-pass of velocities, Hz, positive. */
     float soft_start;         /**< Seconds over which the force is faded in, not negative. */
-    float body_origin[3];     /**< Where the origin of the body's tables lies in the device's frame, m. That frame's own
-                                   origin is the mechanism's workspace_centre. */
+    float body_origin[3];     /**< Where the origin of the body's tables (the model's plus palpate_file_info::centre) lies in
+                                   the device's frame, m. That frame's own origin is the mechanism's workspace_centre. */
     float friction_stiffness; /**< Along the surface while it sticks, N/m, not negative. */
     float friction_damping;   /**< The same, N·s/m, not negative. */
     float friction_static;    /**< Coefficient of static friction, not negative; with the next one 0: no friction. */
