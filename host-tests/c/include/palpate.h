@@ -240,7 +240,8 @@ palpate_status palpate_file_head(const uint8_t *file, size_t bytes, palpate_file
 
 /**
  * Makes a body of a file, with everything in it checked. The numbers are read where they lie: file and buffer stay as
- * they are for as long as the body is used. The time is bounded by the length of the file.
+ * they are for as long as the body is used. The time is bounded by the length of the file. On a Cortex-M4F this takes
+ * less than 2 KB of stack, the start of an arm's loop less than 6 KB, its tick less than 2 KB.
  *
  * @param body        where the body goes
  * @param body_bytes  `sizeof` it

@@ -1,13 +1,15 @@
 //! The example in C on the emulated Cortex-M4F, in closed loop with the demo's scene, beside the image in Rust.
 
-use crate::running::{alone, capped_box, is_wanted, run as run_program};
+use crate::running::{alone, capped_box, file, is_wanted, library, run as run_program};
 use clap::Parser;
+use palpate_sim::devices::{DEVICES, c_preset};
 use palpate_tool::commands::demo::program;
 use palpate_tool::commands::options::{Scene, SceneOptions};
-use palpate_tool::firmware::{Board, Link, Progress, Transport};
+use palpate_tool::firmware::{Board, Link, Pace, Program, Progress, Transport};
 use palpate_tool::in_c;
 use palpate_tool::report::Summary;
 use palpate_tool::simulation::{Trace, run};
+use std::fs;
 use std::path::Path;
 use std::process::Command;
 
@@ -86,4 +88,36 @@ fn the_example_in_c_computes_the_bits_of_the_image_in_rust_and_cannot_panic() {
     println!("  {:<28} {:>9} {:>9}", "flash, bytes", example.image.flash, rust.image.flash);
     println!("  {:<28} {:>9} {:>9}", "static RAM, bytes", example.image.ram, rust.image.ram);
     println!("  {:<28} {:>9} {:>9}", "a tick, instructions at most", most(&in_c), most(&in_rust));
+}
+
+#[test]
+fn a_loop_takes_no_more_stack_than_its_header_says() {
+    if !is_wanted("the stack of a loop in C") {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let elf = folder.path().join("stack.elf");
+    let device = DEVICES.iter().find(|device| device.name == "woodenhaptics-2016").expect("the device");
+    fs::write(folder.path().join("device.h"), c_preset(device)).expect("a header");
+    let mut gcc = in_c::compiler(in_c::Core::M4, "gcc").expect("in the repository");
+    gcc.args(["-std=c11", "-ffunction-sections", "-fdata-sections", "-I"]).arg(folder.path());
+    gcc.arg(format!("-DPART=\"{}\"", capped_box().display())).arg(file("tests/stack.c"));
+    for source in ["startup_mps2.c", "part.S"] {
+        gcc.arg(file("examples/cube/Core/Src").join(source));
+    }
+    gcc.arg(library(in_c::Core::M4)).arg("-T").arg(file("examples/cube/mps2_an386.ld"));
+    run_program(gcc.args(["-nostartfiles", "--specs=nosys.specs", "-Wl,--gc-sections", "-o"]).arg(&elf));
+    let program = Program::of_image(Board::M4, &elf, &Progress::new()).expect("an image");
+    let said = program.run(Pace::Brisk).expect("it ends");
+    println!("stack on an emulated Cortex-M4F, bytes\n{said}");
+    let of = |what: &str| -> u32 {
+        let number = said.lines().find_map(|line| line.strip_prefix(what)?.strip_prefix(' '));
+        number.and_then(|number| number.parse().ok()).unwrap_or_else(|| panic!("no {what}: {said}"))
+    };
+    assert!(of("driven") > 5000, "without force a tick does less: {said}");
+    // As palpate_body_load() says.
+    let limits = [("load", 2048), ("start", 6144), ("tick", 2048), ("protected start", 6144), ("protected tick", 2048)];
+    for (what, limit) in limits {
+        assert!((256..limit).contains(&of(what)), "{what}: {said}");
+    }
 }
