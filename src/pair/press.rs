@@ -50,7 +50,7 @@ pub(super) fn press<const HOLDS: bool>(step: &mut Step, contacts: &mut [ToolCont
             break;
         }
     }
-    // What the sweeps leave closed is pushed open: gaps count more than the last of a force.
+    // Gaps that are still closed are pushed open: they count more than the last of a force.
     for _ in 0..REPAIRS {
         let mut most = 0.0_f32;
         for (contact, pressed) in contacts.iter().zip(&mut all) {
@@ -72,7 +72,7 @@ pub(super) fn press<const HOLDS: bool>(step: &mut Step, contacts: &mut [ToolCont
     }
 }
 
-/// What is found of a contact along its normal.
+/// A contact along its normal.
 #[derive(Clone, Copy)]
 struct Pressed {
     /// N.
@@ -83,7 +83,7 @@ struct Pressed {
     stiff: f32,
 }
 
-/// What is found of it along the body.
+/// A contact along the body.
 #[derive(Clone, Copy)]
 struct Held {
     /// N.
