@@ -458,26 +458,6 @@ impl Feel {
         sum
     }
 
-    /// Damping that the parts lack, N·m·s/rad: everywhere, and what end stops lack besides. A stiffness whose torque comes
-    /// late by `lag_s` drives the dial like a negative damping of their product. Friction is not counted, it has a limit;
-    /// nor is the clicks' damping for other parts, for the same reason.
-    pub(crate) fn lacking(&self, lag_s: f32) -> [f32; 2] {
-        let (mut rest, mut lacks) = (self.stiffness(), -self.damping_n_m_s_per_rad);
-        if let Some(clicks) = &self.clicks {
-            let stiffest = clicks.wall_stiffness.max(clicks.stiffness);
-            rest -= stiffest;
-            lacks += (lag_s * stiffest - clicks.damping).max(0.0);
-        }
-        let mut ends = 0.0;
-        if let Some(stops) = &self.ends {
-            rest -= stops.stiffness_n_m_per_rad;
-            ends = lag_s * stops.stiffness_n_m_per_rad - stops.damping_n_m_s_per_rad;
-        }
-        lacks += lag_s * rest;
-        let ends = ends + lacks.min(0.0);
-        [lacks.max(0.0), ends.max(0.0)]
-    }
-
     /// The maximum total damping, N·m·s/rad.
     pub const fn greatest_damping(&self) -> f32 {
         let mut sum = self.damping_n_m_s_per_rad;
@@ -521,23 +501,14 @@ impl Feel {
     /// limited as a whole.
     #[inline]
     pub fn torque(&self, click: &mut i32, angle: f32, rate: f32) -> f32 {
-        self.torque_after(0, angle, click, angle, rate, [0.0; 2])
+        self.torque_after(0, angle, click, angle, rate)
     }
 
     /// The same after whole turns of the dial, which are no part of the angle: waves stay as precise as in the first
-    /// turn. `whole` is the angle with the turns that spring, end stops, clicks and notch count; the last is damping
-    /// beside the parts' own ([`Self::lacking`]).
+    /// turn. `whole` is the angle with the turns that spring, end stops, clicks and notch count.
     #[inline]
-    pub(crate) fn torque_after(
-        &self,
-        turns: i32,
-        whole: f32,
-        click: &mut i32,
-        angle: f32,
-        rate: f32,
-        [everywhere, ends_too]: [f32; 2],
-    ) -> f32 {
-        let mut torque = -(self.damping_n_m_s_per_rad + everywhere) * rate;
+    pub(crate) fn torque_after(&self, turns: i32, whole: f32, click: &mut i32, angle: f32, rate: f32) -> f32 {
+        let mut torque = -self.damping_n_m_s_per_rad * rate;
         if let Some(wave) = &self.detents {
             torque += wave.at_after(turns, angle);
         }
@@ -555,7 +526,7 @@ impl Feel {
             );
         }
         if let Some(ends) = &self.ends {
-            torque += ends.torque(whole, rate, ends_too);
+            torque += ends.torque(whole, rate);
         }
         if let Some(friction) = &self.friction {
             torque += saturate(-friction.damping() * rate, -friction.torque_n_m, friction.torque_n_m);
@@ -576,14 +547,13 @@ pub(crate) fn wound(turns: i32, angle: f32) -> f32 {
 impl Ends {
     /// The torque of the end stops, N·m: zero between them, and never outwards.
     #[inline]
-    fn torque(&self, angle: f32, rate: f32, damping_too: f32) -> f32 {
-        let damping = self.damping_n_m_s_per_rad + damping_too;
+    fn torque(&self, angle: f32, rate: f32) -> f32 {
         let [least, most] = self.between_rad;
         if angle > most {
-            let torque = self.stiffness_n_m_per_rad * (most - angle) - damping * rate;
+            let torque = self.stiffness_n_m_per_rad * (most - angle) - self.damping_n_m_s_per_rad * rate;
             if torque < 0.0 { torque } else { 0.0 }
         } else if angle < least {
-            let torque = self.stiffness_n_m_per_rad * (least - angle) - damping * rate;
+            let torque = self.stiffness_n_m_per_rad * (least - angle) - self.damping_n_m_s_per_rad * rate;
             if torque > 0.0 { torque } else { 0.0 }
         } else {
             0.0

@@ -18,9 +18,6 @@ use core::fmt;
 /// A switch never gives a step: the difference between the old feel's torque and the new one's decays at a constant
 /// rate, N·m/s. The entry after the table's last is a feel that a host sets part by part ([`Self::set`]).
 ///
-/// A stiff part that has too little damping gets what it lacks: the torque comes late, and by itself an undamped spring
-/// would never let the dial rest.
-///
 /// Where force starts, and where a feel is chosen, whole turns are taken out of the dial's angle: no spring or end stop
 /// turns it back further than half a turn beyond its own place. The host's feel rests where the dial is then
 /// ([`Self::set`]).
@@ -103,11 +100,6 @@ pub enum KnobError {
     },
 }
 
-/// How late the torque of an angle comes: sensor and winding, seconds, and computation and hold, periods. Those of a
-/// gimbal motor (100 µs, 2 mH over 7.5 Ω; a quarter and a half period).
-const LAG_S: f32 = 4e-4;
-const LAG_PERIODS: f32 = 0.75;
-
 /// How far a part of a feel that a host sets may take the dial, radians: an eighth of a turn.
 pub const MAX_RETURN_RAD: f32 = TAU / 8.0;
 
@@ -183,8 +175,6 @@ pub struct KnobWitness {
     own: Option<Feel>,
     /// The torque now, N·m.
     torque: f32,
-    /// Damping beside the active feel's own; not known before its first tick.
-    lacking: Option<[f32; 2]>,
     /// The torque left over from another feel, N·m.
     left_over: f32,
     /// The force at the rim, N.
@@ -308,7 +298,6 @@ impl Knob {
             state.click = feel.detent(state.whole.unwrap_or(0.0));
         }
         (state.own, state.feel, state.switched) = (Some(feel), self.feels.len() as u8, true);
-        state.lacking = None;
         Ok(())
     }
 
@@ -322,7 +311,6 @@ impl Knob {
         }
         self.bears(&feel)?;
         (state.own, state.feel, state.rebased) = (Some(feel), self.feels.len() as u8, true);
-        state.lacking = None;
         Ok(())
     }
 
@@ -411,7 +399,6 @@ impl Surface for Knob {
             starts: false,
             own: None,
             torque: 0.0,
-            lacking: None,
             left_over: 0.0,
             force: 0.0,
             gap: 0.0,
@@ -428,14 +415,7 @@ impl Surface for Knob {
         let whole = wound(state.turns.wrapping_sub(state.base), angle);
         state.whole = Some(whole);
         if let Some(feel) = self.feels.get(usize::from(state.feel)).or(state.own.as_ref()) {
-            let lacking = match state.lacking {
-                Some(lacking) => lacking,
-                None => {
-                    let lacking = feel.lacking(LAG_S + LAG_PERIODS * period);
-                    *state.lacking.insert(lacking.map(|damping| damping.min(self.max_damping)))
-                }
-            };
-            let wanted = feel.torque_after(state.turns, whole, &mut state.click, angle, rate, lacking);
+            let wanted = feel.torque_after(state.turns, whole, &mut state.click, angle, rate);
             // No feel that passes its check gives another; a torque that is no number must not become the maximum.
             let wanted = if wanted.is_finite() { saturate(wanted, -self.most, self.most) } else { 0.0 };
             if state.switched {
@@ -464,7 +444,6 @@ impl Surface for Knob {
         let is_own = usize::from(index) == self.feels.len() && state.own.is_some();
         if (usize::from(index) < self.feels.len() || is_own) && index != state.feel {
             (state.feel, state.switched, state.rebased) = (index, true, true);
-            state.lacking = None;
         }
     }
 
