@@ -42,9 +42,11 @@ pub struct ToolCoupling {
     /// Infinite where the proxy has the hand's orientation.
     stiffness_n_m_per_rad: f32,
     period_s: f32,
+    /// How far a force and a torque move the proxy, m/N and rad/(N·m): 0 where it has the hand's orientation.
+    soft: [f32; 2],
     /// Of the proxy in a tick, m and rad.
     pub(super) max_step: [f32; 2],
-    /// Of the wrench in a tick, by a proxy that slips, N and N·m.
+    /// Of a proxy that slips, beyond the hand's motion in a tick, m and rad.
     max_slip: [f32; 2],
     /// By which the share of a given-up wrench falls in a tick.
     pub(super) fade_step: f32,
@@ -60,12 +62,15 @@ impl ToolCoupling {
             return None;
         }
         let fade = 1.0 / (FADE_S * rate_hz);
+        let soft = [1.0 / stiffness_n_per_m, 1.0 / stiffness_n_m_per_rad];
+        let [slip, slip_turn] = in_a_tick(SLIP, SLIP_STEP, rate_hz);
         Some(Self {
             stiffness_n_per_m,
             stiffness_n_m_per_rad,
             period_s: 1.0 / rate_hz,
+            soft,
             max_step: in_a_tick(SPEED, STEP, rate_hz),
-            max_slip: in_a_tick(SLIP, SLIP_STEP, rate_hz),
+            max_slip: [slip * soft[0], slip_turn * soft[1]],
             fade_step: if fade < 1.0 { fade } else { 1.0 },
             friction: 0.0,
         })
@@ -91,7 +96,9 @@ impl ToolCoupling {
     /// the tool in contact, its energy need not come back to where it was (Barbagli & Salisbury 2003).
     pub const fn without_torque(stiffness_n_per_m: f32, rate_hz: f32) -> Option<Self> {
         match Self::new(stiffness_n_per_m, 1.0, rate_hz) {
-            Some(coupling) => Some(Self { stiffness_n_m_per_rad: f32::INFINITY, ..coupling }),
+            Some(coupling) => {
+                Some(Self { stiffness_n_m_per_rad: f32::INFINITY, soft: [coupling.soft[0], 0.0], ..coupling })
+            }
             None => None,
         }
     }
@@ -135,10 +142,8 @@ impl ToolCoupling {
         contacts: &mut [ToolContact],
         radius: f32,
     ) -> BodyPose {
-        // An infinite stiffness gives 0: no contact turns the proxy.
-        let soft = [1.0 / self.stiffness_n_per_m, 1.0 / self.stiffness_n_m_per_rad];
         let (way, (vector, scalar)) = stretch(proxy, hand);
-        let mut free = Step { way, turn: vector * (2.0 * scalar), soft };
+        let mut free = Step { way, turn: vector * (2.0 * scalar), soft: self.soft };
         if self.friction > 0.0 {
             press::<true>(&mut free, contacts, radius, self.friction);
         } else {
@@ -146,18 +151,16 @@ impl ToolCoupling {
         }
         let Step { way, turn, .. } = free;
         let (moved, (turned, _)) = stretch(before, hand);
-        let [slip, slip_turn] = [0, 1].map(|axis| self.max_slip[axis] * soft[axis]);
+        let [slip, slip_turn] = self.max_slip;
         let length = |vector: Vec3| sqrt(vector.length_squared());
         let least = |one: f32, other: f32| if one < other { one } else { other };
         // One factor for both, so that the step still lowers the spring's energy.
         let max_way = least(self.max_step[0], length(moved) + slip);
-        let mut share;
+        let mut share = share_within([way, turn], [max_way, self.max_step[1]]);
         if self.has_torque() {
             let turned = turned * 2.0;
-            share = share_within([way, turn], [max_way, least(self.max_step[1], length(turned) + slip_turn)]);
+            share = least(share, share_within([turn, Vec3::ZERO], [length(turned) + slip_turn, 0.0]));
             share = share_behind(turned, turn, slip_turn, share);
-        } else {
-            share = share_within([way, turn], [max_way, self.max_step[1]]);
         }
         share = share_behind(moved, way, slip, share);
         // Steps of rounding would carry it out of where friction holds it.

@@ -14,6 +14,7 @@ const REACH_M: f32 = 1.5e-3;
 const VISITS: usize = 2;
 /// By how much the plane of a part that waits for its turn may be nearer than the body, metres.
 const STALE_M: f32 = 1.0e-6;
+
 /// Corners of a core that are tracked.
 pub(super) const CORNERS: usize = 8;
 /// Pieces of a core's edges that are tracked: two of each of a box.

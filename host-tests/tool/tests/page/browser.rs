@@ -74,7 +74,7 @@ const PATIENCE: Duration = Duration::from_secs(300);
 impl Page {
     /// Opens the page from its file and waits until it runs.
     pub fn open() -> anyhow::Result<Self> {
-        // Before the browser starts, which does not wait for ever: the first time this builds the code.
+        // Before the browser starts, whose patience ends: the first time this builds the code.
         Self::open_at(&tool::address())
     }
 
@@ -100,7 +100,7 @@ impl Page {
         Ok(())
     }
 
-    /// Goes to an address and waits until what is there has been loaded.
+    /// Goes to an address and waits until its page is loaded.
     pub fn go(&self, address: &str) -> anyhow::Result<()> {
         let before = self.line.borrow().loaded;
         self.call("Page.navigate", &json!({ "url": address }))?;
@@ -171,7 +171,7 @@ impl Page {
         Ok(page)
     }
 
-    /// Lets the page have one in so many moments of the processor, as on a machine that has much else to do.
+    /// Gives the page this share of the processor, as 1 / `times`, as on a busy machine.
     pub fn slow_down(&self, times: f64) -> anyhow::Result<()> {
         self.call("Emulation.setCPUThrottlingRate", &json!({ "rate": times }))?;
         Ok(())
