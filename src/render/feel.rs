@@ -458,6 +458,28 @@ impl Feel {
         sum
     }
 
+    /// The damping everywhere that the feel needs, N·m·s/rad, where its torque comes late by `lag_s` and the dial by itself
+    /// bears `undamped` N·m/rad. A late stiffness drives the dial like a negative damping, of their product. Clicks and end
+    /// stops have damping of their own. Friction is not counted: above its limit it does not grow.
+    pub(crate) const fn needed_damping(&self, lag_s: f32, undamped: f32) -> f32 {
+        let (mut stiffness, mut in_clicks) = (self.stiffness(), 0.0);
+        if let Some(clicks) = &self.clicks {
+            let stiffest =
+                if clicks.wall_stiffness > clicks.stiffness { clicks.wall_stiffness } else { clicks.stiffness };
+            stiffness -= stiffest;
+            // Limited with their torque: what is more than their own is not counted for other parts.
+            let lacks = lag_s * stiffest - clicks.damping;
+            in_clicks = if lacks > 0.0 { lacks } else { 0.0 };
+        }
+        let mut at_ends = 0.0;
+        if let Some(ends) = &self.ends {
+            stiffness -= ends.stiffness_n_m_per_rad;
+            let lacks = lag_s * ends.stiffness_n_m_per_rad - ends.damping_n_m_s_per_rad;
+            at_ends = if lacks > 0.0 { lacks } else { 0.0 };
+        }
+        lag_s * (stiffness - undamped) + in_clicks + at_ends
+    }
+
     /// The maximum total damping, N·m·s/rad.
     pub const fn greatest_damping(&self) -> f32 {
         let mut sum = self.damping_n_m_s_per_rad;

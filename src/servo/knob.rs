@@ -98,7 +98,19 @@ pub enum KnobError {
         /// The last index that exists.
         last: u8,
     },
+    /// The parts are too stiff for their damping: a dial that is let go of would ring, driven by the motor.
+    Undamped {
+        /// Damping everywhere that they have.
+        asked_n_m_s_per_rad: f32,
+        /// That they need.
+        needed_n_m_s_per_rad: f32,
+    },
 }
+
+/// How late the torque of an angle comes at 4 kHz, s: sensor, winding, computation and hold of a gimbal motor.
+const LAG_S: f32 = 5e-4;
+/// The share of the device's maximum stiffness that needs no damping: the dial's own friction calms it.
+const UNDAMPED: f32 = 0.25;
 
 /// How far a part of a feel that a host sets may take the dial, radians: an eighth of a turn.
 pub const MAX_RETURN_RAD: f32 = TAU / 8.0;
@@ -116,6 +128,7 @@ impl KnobError {
             Self::Far { .. } => "a part would turn the dial by more than an eighth of a turn",
             Self::Late => "a stored feel is restored before the first tick only",
             Self::Missing { .. } => "there is no such feel",
+            Self::Undamped { .. } => "a feel is too stiff for its damping: a dial that is let go of would ring",
         }
     }
 }
@@ -142,6 +155,13 @@ impl fmt::Display for KnobError {
                 formatter,
                 "it would turn the dial by {asked:.2} rad, and the limit is an eighth of a turn, {MAX_RETURN_RAD:.2} rad: \
                  turn the dial there first, or give a nearer position"
+            ),
+            Self::Undamped { asked_n_m_s_per_rad: asked, needed_n_m_s_per_rad: needed } => write!(
+                formatter,
+                "with it a dial that is let go of would ring: the feel is damped by {:.2} mN·m·s/rad and stiff enough to \
+                 need {:.2}; set damping first, or weaken a part",
+                1e3 * asked,
+                1e3 * needed
             ),
             Self::Missing { asked, last } => write!(formatter, "there is no feel {asked}: choose 0 to {last}"),
             _ => formatter.write_str(self.message()),
@@ -255,7 +275,17 @@ impl Knob {
         if !bears_damping {
             return Err(KnobError::Damping { asked_n_m_s_per_rad: damping, limit_n_m_s_per_rad: self.max_damping });
         }
-        if bears_torque { Ok(()) } else { Err(KnobError::Torque { asked_n_m: torque, limit_n_m: self.most }) }
+        if !bears_torque {
+            return Err(KnobError::Torque { asked_n_m: torque, limit_n_m: self.most });
+        }
+        let damped = feel.damping_n_m_s_per_rad;
+        let needed = feel.needed_damping(LAG_S, UNDAMPED * self.max_stiffness * ROUNDED);
+        let rests = needed <= damped * ROUNDED;
+        if rests {
+            Ok(())
+        } else {
+            Err(KnobError::Undamped { asked_n_m_s_per_rad: damped, needed_n_m_s_per_rad: needed })
+        }
     }
 
     /// [`Self::try_new`] for a `static`: invalid numbers are compile errors.

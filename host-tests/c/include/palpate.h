@@ -167,7 +167,8 @@ enum {
     PALPATE_KNOB_MAX_DAMPING = 98,   /**< All parts: more damping than max_damping times radius squared. */
     PALPATE_KNOB_MAX_TORQUE = 99,    /**< All parts: more torque than max_force times radius. */
     PALPATE_KNOB_RELEASE_RATE = 100, /**< Release rate not positive and finite. */
-    PALPATE_KNOB_FAR = 101           /**< The part would take the dial further than an eighth of a turn. */
+    PALPATE_KNOB_FAR = 101,          /**< The part would take the dial further than an eighth of a turn. */
+    PALPATE_KNOB_UNDAMPED = 102      /**< All parts: too stiff for their damping, the dial would ring. */
 };
 
 /** Returns a status in a sentence, a static string; "unknown" of a code that is none. */
@@ -967,7 +968,7 @@ palpate_status palpate_servo_start_dial_protected(palpate_servo *servo, size_t s
  * @param part  which, such as #PALPATE_FEEL_DETENTS
  * @param feel  holds the part; nothing else of it is looked at
  * @param beyond the number that was refused, or NULL; written on a refusal of the part only
- * @return #PALPATE_OK, #PALPATE_OUT_OF_RANGE of the part, or #PALPATE_KNOB_NONE to #PALPATE_KNOB_FAR.
+ * @return #PALPATE_OK, #PALPATE_OUT_OF_RANGE of the part, or #PALPATE_KNOB_NONE to #PALPATE_KNOB_UNDAMPED.
  */
 palpate_status palpate_servo_set_feel(palpate_servo *servo, uint32_t part, const palpate_feel *feel,
                                       palpate_beyond *beyond);

@@ -120,6 +120,9 @@ impl BeyondNumbers {
             }
             KnobError::Torque { asked_n_m, limit_n_m } => (asked_n_m, limit_n_m),
             KnobError::Far { asked_rad } => (asked_rad, MAX_RETURN_RAD),
+            KnobError::Undamped { asked_n_m_s_per_rad, needed_n_m_s_per_rad } => {
+                (asked_n_m_s_per_rad, needed_n_m_s_per_rad)
+            }
             _ => (0.0, 0.0),
         };
         Self { asked, limit }

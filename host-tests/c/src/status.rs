@@ -82,6 +82,7 @@ pub enum Status {
     KnobMaxTorque = 99,
     KnobReleaseRate = 100,
     KnobFar = 101,
+    KnobUndamped = 102,
 }
 
 impl Status {
@@ -165,10 +166,11 @@ impl Status {
             Self::KnobMaxTorque => c"the feel's torques add up to more than max_force times radius: lower one",
             Self::KnobReleaseRate => c"the dial's release rate must be positive and finite",
             Self::KnobFar => c"the dial is more than an eighth of a turn from there: turn it there first, or give a nearer position",
+            Self::KnobUndamped => c"the feel is too stiff for its damping, a dial that is let go of would ring: set damping first, or weaken a part",
         }
     }
 
-    const ALL: [Self; 72] = [
+    const ALL: [Self; 73] = [
         Self::Ok,
         Self::Null,
         Self::Misaligned,
@@ -241,6 +243,7 @@ impl Status {
         Self::KnobMaxTorque,
         Self::KnobReleaseRate,
         Self::KnobFar,
+        Self::KnobUndamped,
     ];
 }
 
@@ -399,6 +402,7 @@ impl From<KnobError> for Status {
             KnobError::Torque { .. } => Self::KnobMaxTorque,
             KnobError::LetGo => Self::KnobReleaseRate,
             KnobError::Far { .. } => Self::KnobFar,
+            KnobError::Undamped { .. } => Self::KnobUndamped,
             // The table is this library's.
             _ => Self::OutOfRange,
         }
