@@ -85,8 +85,8 @@ pub struct HeldTool {
 }
 
 impl<'a> ToolSurface<'a> {
-    /// A body and a tool, for a loop of these settings. Its default work visits 16 cells of the audit a tick on a body
-    /// that is not convex ([`Self::with_cells`]).
+    /// A body, `&part::BODY` of a baked module, and a tool, for a loop of these settings. Its default work visits 16 cells
+    /// of the audit a tick on a body that is not convex ([`Self::with_cells`]).
     ///
     /// # Errors
     /// A tool that is too thin, and settings whose rate or stiffness is not positive and finite.

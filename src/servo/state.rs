@@ -286,7 +286,8 @@ impl<const JOINTS: usize, W, G> ServoState<JOINTS, W, G> {
     /// }
     /// let (fault, _) = state.fault().expect("latched");
     /// assert_eq!((fault, fault.code()), (Fault::FrameLost, 1)); // `Display` gives "sensor frame lost or late"
-    /// // Once a person has mended it and asks: as after a reset, force is faded in after a new request.
+    /// // Once a person has mended it and asks, as after a reset. Force fades in as soon as an input requests it: pass
+    /// // `enable: false` until the person has let go of the enable button.
     /// state = LOOP.start();
     /// assert_eq!(state.fault(), None);
     /// ```

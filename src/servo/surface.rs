@@ -225,6 +225,19 @@ pub trait Tracked: Copy + Debug + PartialEq {
 
     /// A force of the surface's own on the probe, N, in the body's frame, which needs no contact: that of a dial's detents,
     /// or of a field in an application's own crate. The loop limits it as it limits the force of contact.
+    ///
+    /// Of the floor in [`Surface`]'s example, 0.2 N downwards within 10 mm, beside the force of contact:
+    ///
+    /// ```
+    /// # use palpate::math::Vec3;
+    /// # struct Below { gap: f32 }
+    /// # impl Below {
+    /// fn own_force(&self) -> Option<Vec3> {
+    ///     Some(Vec3::Z * if self.gap < 0.01 { -0.2 } else { 0.0 })
+    /// }
+    /// # }
+    /// # assert_eq!(Below { gap: 0.005 }.own_force().map(|force| force.z), Some(-0.2));
+    /// ```
     #[inline]
     fn own_force(&self) -> Option<Vec3> {
         None

@@ -12,9 +12,9 @@ use core::f32::consts::FRAC_PI_2;
 /// Çavuşoğlu, Feygin and Tendick (2001) as measured again in a public implementation, where the angles count the first
 /// link up from level and the second up from hanging. Zero counts is that pose, and its probe the origin: first link
 /// level, second hanging. Resolution is published as 0.03 mm, so 4,000 counts are assumed; maximum force (the force
-/// that the motors reach at the origin along every axis), stiffness and damping too. The frame: x away from the base, z
-/// up. A plain wall of 1,500 N/m and 5 N·s/m at 4 kHz, pressed in simulation, gives stiffness times depth to 1.4 %, and
-/// no count moves; [`crate::servo::recommended`] is softer, so that a hand feels no count either.
+/// that the motors reach at the origin along every axis) and damping too. Stiffness: half of what is stable in the weakest
+/// direction of the workspace, by `palpate zwidth`. The frame: x away from the base, z up.
+/// [`crate::servo::recommended`] is softer, so that a hand feels no count.
 pub const PHANTOM_PREMIUM: Device<SerialArm, 3> = Device {
     kinematics: SerialArm {
         base_height_m: 0.0,
@@ -42,6 +42,6 @@ pub const PHANTOM_PREMIUM: Device<SerialArm, 3> = Device {
     min_margin_m_per_rad: 0.05,
     max_joint_rate_rad_per_s: 25.0,
     max_force_n: 6.5,
-    max_stiffness_n_per_m: 1_500.0,
+    max_stiffness_n_per_m: 660.0,
     max_damping_n_s_per_m: 5.0,
 };

@@ -202,7 +202,7 @@ fn polhem_presses_with_stiffness_times_depth_and_no_limit_cycle() {
 fn phantom_presses_with_stiffness_times_depth_and_no_limit_cycle() {
     let plant = PlantSettings::phantom_premium();
     let bench = Bench { name: "Phantom Premium", device: &PHANTOM_PREMIUM, plant, push: 4.0 };
-    touches_cleanly(&bench, &[(1_000.0, 2.0)]);
+    touches_cleanly(&bench, &[(500.0, 2.0)]);
 }
 
 #[test]

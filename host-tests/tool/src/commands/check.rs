@@ -264,7 +264,7 @@ fn limits(report: &mut String, arguments: &Arguments, labels: &[String], surveys
         let gain = limits.monotone_gain(0.0);
         writeln!(
             report,
-            "{label:<16} {:>21} {:>19} {:>8.1} {:>9.0} {:>11.0} {:>7.2} {:>8.2} {:>9.2}",
+            "{label:<16} {:>21} {:>19} {:>8.1} {:>9.0} {:>11.0} {:>7.2} {:>8.2} {:>9}",
             format!("{:.2} to {:.2}", shape.curvature.min, shape.curvature.max),
             format!("{:.4} to {:.4}", shape.min_stretch.sqrt(), shape.max_stretch.sqrt()),
             shape.max_bend,
@@ -272,7 +272,11 @@ fn limits(report: &mut String, arguments: &Arguments, labels: &[String], surveys
             gain,
             1e6 * limits.lag(gain, speed),
             1e6 * limits.lag_bound(gain, speed),
-            1e3 * limits.depth_limit()
+            // Rounding may bend a plane a little.
+            match 1e3 * limits.depth_limit() {
+                depth if depth < 1e6 => format!("{depth:.2}"),
+                _ => "no limit".to_owned(),
+            }
         )?;
     }
     Ok(())

@@ -111,7 +111,11 @@ fn leaves(report: &mut String, locator: &LocatorReport) -> Result<(), Error> {
         row(report, &format!("  {kind}"), count, &format!("{}  {meaning}", share(count)))?;
     }
     if locator.loosest > 0.0 {
-        writeln!(report, "  worst-case error bound where one minimum is not proved: {:.3} mm", 1e3 * locator.loosest)?;
+        writeln!(
+            report,
+            "  at most {:.3} mm too far where a second minimum is possible and its loss bounded; sampled cells have no bound",
+            1e3 * locator.loosest
+        )?;
     }
     Ok(())
 }
