@@ -458,10 +458,13 @@ impl Feel {
         sum
     }
 
-    /// The damping everywhere that the feel needs, N·m·s/rad, where its torque comes late by `lag_s` and the dial by itself
-    /// bears `undamped` N·m/rad. A late stiffness drives the dial like a negative damping, of their product. Clicks and end
-    /// stops have damping of their own. Friction is not counted: above its limit it does not grow.
-    pub(crate) const fn needed_damping(&self, lag_s: f32, undamped: f32) -> f32 {
+    /// The damping everywhere that the feel needs, N·m·s/rad, where its torque comes late by `lag_s` and the dial's own
+    /// friction bears `undamped_n_m_per_rad` with a torque of `most_n_m`.
+    ///
+    /// A late stiffness drives the dial like a negative damping of their product `K t`: in a swing of `A` radians it gives
+    /// `π K t √(K/J) A²`, and friction takes `4 τ A`. A spring of torque `T` is that stiff within `A = T/K`: what friction
+    /// bears goes with `T √K`. Clicks and end stops have damping of their own. A feel's friction is not counted.
+    pub(crate) const fn needed_damping(&self, lag_s: f32, undamped_n_m_per_rad: f32, most_n_m: f32) -> f32 {
         let (mut stiffness, mut in_clicks) = (self.stiffness(), 0.0);
         if let Some(clicks) = &self.clicks {
             let stiffest =
@@ -471,13 +474,14 @@ impl Feel {
             let lacks = lag_s * stiffest - clicks.damping;
             in_clicks = if lacks > 0.0 { lacks } else { 0.0 };
         }
-        let mut at_ends = 0.0;
+        let mut at_ends = f32::NEG_INFINITY;
         if let Some(ends) = &self.ends {
+            at_ends = lag_s * (stiffness - undamped_n_m_per_rad) - ends.damping_n_m_s_per_rad;
             stiffness -= ends.stiffness_n_m_per_rad;
-            let lacks = lag_s * ends.stiffness_n_m_per_rad - ends.damping_n_m_s_per_rad;
-            at_ends = if lacks > 0.0 { lacks } else { 0.0 };
         }
-        lag_s * (stiffness - undamped) + in_clicks + at_ends
+        let stronger = most_n_m / self.torque_between_ends();
+        let between = lag_s * (stiffness - undamped_n_m_per_rad * stronger * stronger);
+        in_clicks + if at_ends > between { at_ends } else { between }
     }
 
     /// The maximum total damping, N·m·s/rad.

@@ -108,9 +108,9 @@ pub enum KnobError {
 }
 
 /// How late the torque of an angle comes at 4 kHz, s: sensor, winding, computation and hold of a gimbal motor.
-const LAG_S: f32 = 5e-4;
-/// The share of the device's maximum stiffness that needs no damping: the dial's own friction calms it.
-const UNDAMPED: f32 = 0.25;
+const LAG_S: f32 = 6e-4;
+/// The share of the device's maximum stiffness that needs no damping at its maximum force: the dial's friction calms it.
+const UNDAMPED: f32 = 0.125;
 
 /// How far a part of a feel that a host sets may take the dial, radians: an eighth of a turn.
 pub const MAX_RETURN_RAD: f32 = TAU / 8.0;
@@ -279,7 +279,7 @@ impl Knob {
             return Err(KnobError::Torque { asked_n_m: torque, limit_n_m: self.most });
         }
         let damped = feel.damping_n_m_s_per_rad;
-        let needed = feel.needed_damping(LAG_S, UNDAMPED * self.max_stiffness * ROUNDED);
+        let needed = feel.needed_damping(LAG_S, UNDAMPED * self.max_stiffness * ROUNDED, self.most);
         let rests = needed <= damped * ROUNDED;
         if rests {
             Ok(())
