@@ -470,7 +470,7 @@ impl Feel {
             let stiffest =
                 if clicks.wall_stiffness > clicks.stiffness { clicks.wall_stiffness } else { clicks.stiffness };
             stiffness -= stiffest;
-            // Limited with their torque: what is more than their own is not counted for other parts.
+            // Limited with their torque: a surplus is not counted for other parts.
             let lacks = lag_s * stiffest - clicks.damping;
             in_clicks = if lacks > 0.0 { lacks } else { 0.0 };
         }

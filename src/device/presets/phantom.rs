@@ -12,8 +12,8 @@ use core::f32::consts::FRAC_PI_2;
 /// Çavuşoğlu, Feygin and Tendick (2001) as measured again in a public implementation, where the angles count the first
 /// link up from level and the second up from hanging. Zero counts is that pose, and its probe the origin: first link
 /// level, second hanging. Resolution is published as 0.03 mm, so 4,000 counts are assumed; maximum force (the force
-/// that the motors reach at the origin along every axis) and damping too. Stiffness: half of what is stable in the weakest
-/// direction of the workspace, by `palpate zwidth`. The frame: x away from the base, z up.
+/// that the motors reach at the origin along every axis) and damping too. Stiffness: half of the limit of stability in the
+/// weakest direction of the workspace, by `palpate zwidth`. The frame: x away from the base, z up.
 /// [`crate::servo::recommended`] is softer, so that a hand feels no count.
 pub const PHANTOM_PREMIUM: Device<SerialArm, 3> = Device {
     kinematics: SerialArm {
