@@ -4,6 +4,7 @@ import { Device } from "firmware";
 import { pace } from "choices";
 import { colour } from "scheme";
 import { IDLE, Presence } from "stroll";
+import { free, rem } from "free";
 
 const by = (id) => document.getElementById(id);
 const DEGREE = Math.PI / 180,
@@ -129,7 +130,7 @@ export class Knob {
 
   angleOf({ clientX, clientY }) {
     const { left, top, width } = this.canvas.getBoundingClientRect(),
-      { x, y } = this.middle();
+      { x, y } = this.places().dial;
     return Math.atan2(clientX - left - (x * width) / this.canvas.width, -(clientY - top - (y * width) / this.canvas.width));
   }
 
@@ -189,17 +190,24 @@ export class Knob {
     this.draw(angle, torque, heard ? null : this.hand);
   }
 
-  /** Where the dial is drawn with what stands round it, below the words at the head; in pixels of the canvas. */
-  middle() {
-    const { canvas } = this,
-      { width, height } = canvas;
-    const { right, bottom } = document.querySelector("header").getBoundingClientRect();
-    const box = canvas.getBoundingClientRect(),
-      scale = width / Math.max(box.width, 1);
-    const isBelow = (right - box.left) * scale > 0.2 * width;
-    const top = isBelow ? (bottom - box.top + 8) * scale : 0.06 * height,
-      radius = Math.min(width * 0.3, (0.6 * height - top) / (2 * AROUND));
-    return { x: width / 2, y: top + radius * AROUND, radius };
+  /**
+   * Where the dial is drawn with what stands round it, and the plot: beside each other where the
+   * dial is larger then; px of the canvas.
+   */
+  places() {
+    const scale = this.canvas.width / Math.max(this.canvas.clientWidth, 1),
+      { width, top, bottom } = free(),
+      high = bottom - top - rem(),
+      isLow = 0.405 * width > 0.64 * high;
+    const [wide, tall] = isLow ? [0.45 * width, high] : [width, 0.64 * high];
+    const radius = scale * Math.max(Math.min(0.9 * wide, tall) / (2 * AROUND), 1);
+    const plot = isLow
+      ? [0.48 * width, 0.97 * width, top + 0.3 * high, top + 0.7 * high]
+      : [0.08 * width, 0.92 * width, top + tall + 2.2 * rem(), top + high];
+    return {
+      dial: { x: (scale * wide) / 2, y: scale * (top + 0.4 * rem() + tall / 2), radius },
+      plot: plot.map((place) => scale * place),
+    };
   }
 
   draw(angle, torque, hand) {
@@ -214,7 +222,7 @@ export class Knob {
   }
 
   drawDial(context, angle, hand, scale) {
-    const { x, y, radius } = this.middle();
+    const { x, y, radius } = this.places().dial;
     const at = (turn, far) => [x + Math.sin(turn) * radius * far, y - Math.cos(turn) * radius * far];
     const line = (turn, from, to, colour, thick) => {
       context.strokeStyle = colour;
@@ -248,8 +256,7 @@ export class Knob {
   /** The torque of a turn around the dial's place, which rises to the left of a detent. */
   drawCurve(context, angle, torque, scale) {
     this.curve ??= this.device.knobCurve(0, PLACES);
-    const { width, height } = context.canvas;
-    const [left, right, top, bottom] = [0.08 * width, 0.92 * width, 0.66 * height, 0.84 * height];
+    const [left, right, top, bottom] = this.places().plot;
     const most = Math.max(0.01, Math.min(0.056, this.curve.reduce((a, b) => Math.max(a, Math.abs(b)), 0)));
     const across = (turn) => left + (right - left) * (turn / (2 * Math.PI) + 0.5),
       up = (value) => (top + bottom) / 2 - ((bottom - top) / 2) * Math.min(Math.max(value / most, -1), 1);
@@ -271,7 +278,13 @@ export class Knob {
     context.arc(across(within), up(torque), 6 * scale, 0, 7);
     context.fill();
     context.fillStyle = colour("soft");
-    context.font = `${12 * scale}px system-ui, sans-serif`;
-    context.fillText(`torque over a turn, ±${(most / MILLI).toFixed(0)} mN·m`, left, top - 6 * scale);
+    context.font = `${0.86 * rem() * scale}px system-ui, sans-serif`;
+    const lines = [""];
+    for (const word of `torque over a turn, ±${(most / MILLI).toFixed(0)} mN·m`.split(" ")) {
+      const longer = `${lines[0]} ${word}`.trim();
+      if (context.measureText(longer).width < right - left) lines[0] = longer;
+      else lines.unshift(word);
+    }
+    lines.forEach((line, above) => context.fillText(line, left, top - 6 * scale - above * 1.1 * rem() * scale));
   }
 }

@@ -8,6 +8,7 @@ import { toggle } from "live";
 import { number, whenChosen } from "choices";
 import { verify } from "proof";
 import { explain } from "why";
+import { whenFree } from "free";
 
 const by = (id) => document.getElementById(id);
 const page = new Page();
@@ -32,6 +33,7 @@ function wire() {
   for (const [words, address] of given.links ?? [])
     by("links").append(Object.assign(document.createElement("a"), { textContent: words, href: address, target: "_blank" }));
   addEventListener("resize", () => page.room.resize());
+  whenFree(() => page.room.resize());
   addEventListener("dragover", (event) => (event.preventDefault(), (by("drop").hidden = false)));
   addEventListener("dragleave", (event) => event.relatedTarget ?? (by("drop").hidden = true));
   addEventListener("drop", (event) => {

@@ -19,16 +19,10 @@ export class Player {
     Object.assign(this, { recording, at: 0, plays: true });
     by("play").textContent = "pause";
     by("time").max = recording.views.length - 1;
-    this.bar(true);
+    by("timeline").hidden = false;
     by("device").disabled = true;
     by("device-about").textContent = `This run was made with ${recording.with}.`;
     by("live").textContent = `state hash ${recording.hash}: ${recording.on}’s, bit for bit`;
-  }
-
-  /** Shows the bar, which takes room from the body, or hides it. */
-  bar(shown) {
-    by("timeline").hidden = !shown;
-    dispatchEvent(new Event("resize"));
   }
 
   /** Stands at a time, s. */
@@ -41,7 +35,7 @@ export class Player {
   close() {
     this.recording = null;
     by("device").disabled = false;
-    this.bar(false);
+    by("timeline").hidden = true;
   }
 
   /** The view after so many seconds more. */

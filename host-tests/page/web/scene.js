@@ -27,6 +27,7 @@ import {
   Vector3,
   WebGLRenderer,
 } from "three";
+import { free } from "free";
 
 const PORCELAIN = 0xe6dfd2,
   LIT = 0x8fe3da,
@@ -38,10 +39,13 @@ const MOUSE_PAN = 2,
   MOUSE_ROTATE = 0,
   TOUCH_ROTATE = 3;
 
+/** Height and width of what is seen of the room, in its distance. */
+const HIGH = 0.5,
+  WIDE = 0.66;
+
 export class Room {
   constructor(canvas) {
     this.canvas = canvas;
-    [this.foot, this.bar] = ["foot", "timeline"].map((id) => document.getElementById(id));
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
     this.renderer.toneMapping = ACESFilmicToneMapping;
     this.renderer.toneMappingExposure = 0.92;
@@ -255,18 +259,14 @@ export class Room {
   }
 
   resize() {
-    const { clientWidth: width, clientHeight: height } = this.canvas.parentElement;
+    const { width, height, top, bottom } = free(true);
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / Math.max(height, 1);
-    // Narrow screens look from farther away.
-    const fov = this.camera.aspect < 1 ? 46 : 32;
-    // Above the words at the foot, and as much smaller and higher as the bar of a recording takes, or on a phone what
-    // those words have beyond a fifth.
-    const bar = Math.max(this.bar.hidden ? 0 : this.bar.offsetHeight, this.foot.offsetHeight - height / 5);
-    const tangent = (Math.tan((fov / 2) * DEGREE) * height) / Math.max(height - bar, 1);
-    this.camera.fov = (2 * Math.atan(tangent)) / DEGREE;
-    this.camera.setViewOffset(width, height, 0, 0.03 * height + bar / 2, width, height);
+    // In the middle of what words leave free, and as large as fits there.
+    const scale = Math.min((bottom - top) / HIGH, width / WIDE);
+    this.camera.fov = (2 * Math.atan(height / 2 / scale)) / DEGREE;
+    this.camera.setViewOffset(width, height, 0, (height - top - bottom) / 2, width, height);
     this.resolution = { x: width, y: height, isVector2: true };
     this.lines?.forEach((material) => material.resolution.set(width, height));
   }

@@ -70,7 +70,7 @@
     const { overflowX } = getComputedStyle(of);
     const isCut = of.clientWidth && of.scrollWidth > of.clientWidth + 1 && isShown(of);
     if (isCut && (/hidden|clip/.test(overflowX) || of === document.body)) faults.push(`${said(of)} is cut by ${of.tagName}`);
-    if (isCut && /auto|scroll/.test(overflowX) && of.tagName !== "PRE" && innerWidth > 700)
+    if (isCut && /auto|scroll/.test(overflowX) && of.tagName !== "PRE" && (innerWidth > 700 || of.tagName === "ASIDE"))
       faults.push(`${said(of)} scrolls sideways in ${of.tagName}.${of.className}`);
   }
   return [...new Set(faults)];

@@ -10,9 +10,22 @@ use std::fs;
 const FAULTS: &str = include_str!("looks.js");
 /// A phone, a laptop, a desk.
 const WIDTHS: [u32; 3] = [390, 1280, 1920];
-/// Of the page, where its panel leaves the least to its scene, too.
-const NARROW: [u32; 2] = [1100, 1366];
 const HEIGHT: u32 = 800;
+/// Of the page: also where its panel leaves the least to its scene, phones upright and across, and letters of twice the
+/// size; width, height, and the browser's letters, px.
+const SIZES: [(u32, u32, u32); 11] = [
+    (390, HEIGHT, 16),
+    (1280, HEIGHT, 16),
+    (1920, HEIGHT, 16),
+    (1100, HEIGHT, 16),
+    (1366, HEIGHT, 16),
+    (844, 390, 16),
+    (740, 360, 16),
+    (320, 640, 16),
+    (195, 422, 16),
+    (390, 844, 32),
+    (844, 390, 32),
+];
 const SCHEMES: [&str; 2] = ["light", "dark"];
 
 fn faults(page: &Page, of: &str) -> anyhow::Result<Vec<String>> {
@@ -88,12 +101,14 @@ fn no_words_of_the_page_are_covered_cut_small_or_pale() -> anyhow::Result<()> {
     let page = Page::empty()?;
     page.run(&address)?;
     let mut all = Vec::new();
-    for width in WIDTHS.into_iter().chain(NARROW) {
+    for (width, height, letters) in SIZES {
+        let sizes = serde_json::json!({ "fontSizes": { "standard": letters, "fixed": letters } });
+        page.call("Page.setFontSizes", &sizes)?;
         // Small: a processor draws each frame.
-        page.set_size([width, HEIGHT], 0.25)?;
+        page.set_size([width, height], 0.25)?;
         for scheme in SCHEMES {
             page.prefer(scheme)?;
-            all.extend(faults_of_page(&page, &format!("{width} px, {scheme}"))?);
+            all.extend(faults_of_page(&page, &format!("{width} × {height}, letters of {letters} px, {scheme}"))?);
         }
         page.ask("palpate.take('capped_box')")?;
         photograph_page(&page, width)?;
@@ -101,6 +116,27 @@ fn no_words_of_the_page_are_covered_cut_small_or_pale() -> anyhow::Result<()> {
     ensure!(all.is_empty(), "{} faults:\n{}", all.len(), all.join("\n"));
     Ok(())
 }
+
+/// Words that the body lies under.
+const COVERS: &str = "(() => {
+    const { room } = palpate.page, { left, top, width, height } = room.canvas.getBoundingClientRect();
+    room.resize();
+    room.draw(false);
+    const words = [...document.querySelectorAll('h1, header p, #caption, #legend li, .help')].filter((word) => word.checkVisibility());
+    const place = room.camera.position.clone(), found = new Set();
+    for (const face of room.faces) {
+        const position = face.geometry.getAttribute('position');
+        for (let at = 0; at < position.count; at += 1) {
+            place.fromBufferAttribute(position, at).applyMatrix4(face.matrixWorld).project(room.camera);
+            const x = left + ((1 + place.x) / 2) * width, y = top + ((1 - place.y) / 2) * height;
+            for (const word of words) {
+                const box = word.getBoundingClientRect();
+                if (x > box.left && x < box.right && y > box.top && y < box.bottom) found.add(word.textContent);
+            }
+        }
+    }
+    return [...found];
+})()";
 
 /// The same of each panel of the page, of a refusal, of a device and of explanations.
 fn faults_of_page(page: &Page, at: &str) -> anyhow::Result<Vec<String>> {
@@ -120,14 +156,22 @@ fn faults_of_page(page: &Page, at: &str) -> anyhow::Result<Vec<String>> {
         ensure!(!is_bare, "{panel}: not explained: {rows}");
     }
     // The dial is no word, and yet it may not lie over any.
-    let apart = "(() => { const { x, y, radius } = palpate.page.knob.middle(), canvas = document.getElementById('dial'); \
+    let apart = "(() => { const { x, y, radius } = palpate.page.knob.places().dial, canvas = document.getElementById('dial'); \
         const scale = canvas.clientWidth / canvas.width, box = canvas.getBoundingClientRect(); \
         const at = [box.left + x * scale, box.top + y * scale]; \
         const { right, bottom } = document.querySelector('header').getBoundingClientRect(); \
         const away = Math.hypot(Math.max(at[0] - right, 0), Math.max(at[1] - bottom, 0)); \
         return away - 1.25 * radius * scale; })()";
     ensure!(page.number(apart)? > 0.0, "the dial lies over the head at {at}");
+    let small = page.number(
+        "(({ radius }, { width, clientWidth }) => (radius * clientWidth) / width)\
+        (palpate.page.knob.places().dial, document.getElementById('dial'))",
+    )?;
+    ensure!(small > 30.0, "a dial of {small} px at {at}");
     page.ask("palpate.panel('feel')")?;
+    page.ask("palpate.drawn(2)")?;
+    let covers = page.ask(COVERS)?;
+    ensure!(covers == serde_json::json!([]), "the body lies over {covers} at {at}");
     page.ask("palpate.holdDevice('woodenhaptics-2016')")?;
     all.extend(faults(page, &format!("page with a device, {at}"))?);
     page.ask("palpate.holdDevice('')")?;

@@ -232,7 +232,7 @@ fn words_and_the_bar_of_a_recording_lie_below_the_body() -> anyhow::Result<()> {
 }
 
 fn lie_below(page: &Page, what: &str) -> anyhow::Result<()> {
-    for size in [[1280, 800], [1200, 800], [1920, 1080], [390, 800]] {
+    for size in [[1280, 800], [1200, 800], [1920, 1080], [390, 800], [844, 390], [740, 360], [320, 640]] {
         page.set_size(size, 0.25)?;
         let above = page.number(ABOVE_THE_FOOT)?;
         println!("{size:?}, {what}: {above:.0} px");
