@@ -1,5 +1,6 @@
-"""Baked modes as an array of C, from the file of palpate bake --soft --out part.rs: modes.py part.rs > part_modes.h."""
+"""The array part_modes of PART_MODES modes for C, from palpate bake --soft --out part.rs: modes.py part.rs > part_modes.h."""
 
+import pathlib
 import re
 import sys
 
@@ -22,8 +23,12 @@ def main():
         source = file.read()
     modes = blocks(source, "MODES", "field::Mode {")
     motions = blocks(source, "MOTION", "field::Modal {")
+    # By the file, as a baked body's names: two bodies are in one program.
+    name = re.sub(r"[^a-z0-9]", "_", pathlib.Path(sys.argv[1]).stem.lower())
+    name = name if name[0].isalpha() else f"part_{name}"
     print("/* Modes of a body as `palpate bake` wrote them. */\n#pragma once\n#include <palpate.h>\n")
-    print(f"#define MODES {len(modes)}\n\nstatic const palpate_mode modes[MODES] = {{")
+    print(f"#define {name.upper()}_MODES {len(modes)}\n")
+    print(f"static const palpate_mode {name}_modes[{name.upper()}_MODES] = {{")
     for (has_bump, mode), (_, motion) in zip(modes, motions, strict=True):
         bump = mode[30:37] if has_bump else ["0.0"] * 7
         row = [number + "f" for number in mode[:30] + bump + mode[-5:] + motion]

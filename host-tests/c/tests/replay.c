@@ -22,7 +22,7 @@ static void mix(uint32_t word)
 
 #ifdef MODES_FILE
 static palpate_soft_body soft;
-static palpate_word room[MODES * PALPATE_MODE_WORDS];
+static palpate_word room[PART_MODES * PALPATE_MODE_WORDS];
 
 static palpate_status load(const palpate_mode *given, size_t count, float rate)
 {
@@ -42,14 +42,15 @@ static void refusals(void)
         {offsetof(palpate_mode, mass), 1e-12f, PALPATE_SOFT_MOTION},
     };
     for (size_t index = 0; index < sizeof bad / sizeof bad[0]; index++) {
-        palpate_mode spoiled[MODES];
-        memcpy(spoiled, modes, sizeof modes);
-        memcpy((char *)&spoiled[MODES - 1] + bad[index].at, &bad[index].number, sizeof(float));
-        if (load(spoiled, MODES, 4000) != bad[index].status) exit(10 + (int)index);
+        palpate_mode spoiled[PART_MODES];
+        memcpy(spoiled, part_modes, sizeof part_modes);
+        memcpy((char *)&spoiled[PART_MODES - 1] + bad[index].at, &bad[index].number, sizeof(float));
+        if (load(spoiled, PART_MODES, 4000) != bad[index].status) exit(10 + (int)index);
     }
-    if (load(modes, 0, 4000) != PALPATE_SOFT_MODES || load(modes, 9, 4000) != PALPATE_SOFT_MODES) exit(20);
-    if (load(modes, MODES, -4000) != PALPATE_SOFT_RATE || load(modes, MODES, NAN) != PALPATE_SOFT_RATE) exit(21);
-    if (palpate_soft_body_load(&soft, sizeof soft, &body, modes, MODES, 4000, room, sizeof room - sizeof room[0] * 8)
+    if (load(part_modes, 0, 4000) != PALPATE_SOFT_MODES || load(part_modes, 9, 4000) != PALPATE_SOFT_MODES) exit(20);
+    if (load(part_modes, PART_MODES, -4000) != PALPATE_SOFT_RATE || load(part_modes, PART_MODES, NAN) != PALPATE_SOFT_RATE) exit(21);
+    if (palpate_soft_body_load(&soft, sizeof soft, &body, part_modes, PART_MODES, 4000, room,
+                               sizeof room - sizeof room[0] * 8)
         != PALPATE_TOO_SMALL) exit(22);
     palpate_servo one;
     const palpate_serial_arm arm = {0};
@@ -109,7 +110,7 @@ int main(int count, char **arguments)
     good(palpate_body_load(&body, sizeof body, file, file_bytes, buffer, info.buffer_bytes));
 #ifdef MODES_FILE
     refusals();
-    good(load(modes, MODES, settings.rate));
+    good(load(part_modes, PART_MODES, settings.rate));
 #endif
     if (START(&servo, sizeof servo, &arm, &device, BODY, &settings, &protection, PALPATE_RESET_POWER_ON)
         != PALPATE_SETTINGS_TEXTURE) return 3;
@@ -135,9 +136,9 @@ int main(int count, char **arguments)
     }
 #ifdef MODES_FILE
     /* Other modes end the loop. */
-    good(load(modes, MODES - 1, settings.rate));
+    good(load(part_modes, PART_MODES - 1, settings.rate));
     if (palpate_servo_tick(&servo, counts, 3, 1, &output) != PALPATE_NOT_READY || output.drives) return 4;
-    good(load(modes, MODES, settings.rate));
+    good(load(part_modes, PART_MODES, settings.rate));
     good(palpate_servo_tick(&servo, counts + 3 * (ticks - 1), 3, 1, &output));
 #else
     if (palpate_servo_modes(&servo, q) != PALPATE_SOFT_NONE) return 5;
