@@ -57,9 +57,10 @@ def test_a_setting_beyond_the_motor_is_refused_with_its_limit_and_changes_nothin
         ("spring", (0.2, 0.03), r"spring was refused .* up to 60\.00 mN·m, .* limit is 56\.00 mN·m: weaken"),
         ("detents", (TAU / 60, 0.05), r"detents was .* stiff as 3000\.00 mN·m/rad, and .* is 1600\.00 mN·m/rad: weaken"),
         ("damping", (4e-3,), r"damping was refused .* 4\.00 mN·m·s/rad, and .* 3\.20 mN·m·s/rad: weaken"),
-        ("spring", (0.1, 0.01, 3.0), r"spring was refused .* turn the dial by .* rad, and .* 0\.79 rad: turn"),
+        ("spring", (0.02, 0.01, 3.0), r"spring was refused .* turn the dial by .* rad, and .* 0\.79 rad: turn"),
         ("friction", (float("nan"),), r"friction was refused .* finite"),
         ("notch", (0.0, 4.0, 0.01), r"notch was refused .* at most half a turn"),
+        ("notch", (0.1, 0.1, 0.015), r"notch was refused .* would ring: .* damped by 0\.00 .* need 0\.\d\d; set damping first"),
     ]:
         with pytest.raises(palpate.SettingsError, match=says):
             getattr(knob, part)(*numbers)
@@ -77,18 +78,18 @@ def test_no_change_steps_the_torque_by_more_than_a_millinewton_metre_a_tick(knob
         before = dict(forms)
         knob.trace()
         if number % 5 == 0:
-            knob.detents(TAU / 20, strength)
-            forms["detents"] = lambda angle, strength=strength: -strength * np.sin(20 * angle)
+            knob.detents(TAU / 8, strength)
+            forms["detents"] = lambda angle, strength=strength: -strength * np.sin(8 * angle)
         elif number % 5 == 1:
-            knob.texture(TAU / 60, strength / 10)
-            forms["texture"] = lambda angle, strength=strength: -strength / 10 * np.sin(60 * angle)
+            knob.texture(TAU / 24, strength / 10)
+            forms["texture"] = lambda angle, strength=strength: -strength / 10 * np.sin(24 * angle)
         elif number % 5 == 2:
-            knob.spring(0.1, strength, at + 0.3)
-            forms["spring"] = lambda angle, rest=at + 0.3, most=strength: np.clip(0.1 * (rest - angle), -most, most)
+            knob.spring(0.05, strength, at + 0.3)
+            forms["spring"] = lambda angle, rest=at + 0.3, most=strength: np.clip(0.05 * (rest - angle), -most, most)
         elif number % 5 == 3:
-            knob.notch(at + 0.1, 0.5, strength)
+            knob.notch(at + 0.1, 1.2, strength)
             forms["notch"] = lambda angle, at=at + 0.1, strength=strength: np.where(
-                np.abs(angle - at) < 0.25, -strength * np.sin(TAU * (angle - at) / 0.5), 0
+                np.abs(angle - at) < 0.6, -strength * np.sin(TAU * (angle - at) / 1.2), 0
             )
         else:
             knob.free()
