@@ -3,6 +3,7 @@
 use super::candidate_search::{CandidateSearch, CandidateStatus};
 use super::feature::Feature;
 use super::locator::Candidate;
+use super::quadratic_model::DistanceDerivatives;
 use super::search::{Best, Search};
 use super::table::Body;
 use super::tracker::{BodyStep, BodyWitness};
@@ -18,6 +19,8 @@ const NEARER: f32 = 1.0e-3;
 const MARGIN: f32 = 0.01;
 /// Maximum evaluations of one candidate in a pass.
 pub(super) const MAX_EVALUATIONS_IN_AUDIT: u8 = 6;
+/// At an effort of one: maximum ticks of a pass that the tracker has for itself because it is on its way.
+pub(super) const MAX_DEFERRED: u8 = 8;
 /// Part of a root that covers its rounding.
 const BELOW: f32 = 1.0 - 4.0 * f32::EPSILON;
 /// No entry of the locator.
@@ -52,9 +55,29 @@ pub(super) struct Audit {
     favourite: u16,
     /// The entries that hold the tracker's point as their only minimum.
     held: [u16; 2],
-    is_done: bool,
-    /// Whether the candidate's point is nearer, and waits for the evaluation of the next tick.
-    waits: bool,
+    stage: Stage,
+    /// The last evaluation, while it is not judged.
+    seen: DistanceDerivatives,
+}
+
+/// The next action of the audit. At an effort of one each has a tick of its own, but for [`Stage::Fresh`] after
+/// [`Stage::GoOn`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Stage {
+    /// To start a pass.
+    Start,
+    /// To skip the candidate if it holds the tracker's point.
+    Fresh,
+    /// To evaluate.
+    Evaluate,
+    /// To judge the evaluation.
+    Judge,
+    /// To move the tracker to the candidate's point, which is nearer.
+    SetDown,
+    /// To go on to the next candidate; `at_least` bounds `φ` of this one.
+    GoOn,
+    /// Nothing, while the certificate holds.
+    Rest,
 }
 
 /// The faces that hold the tracker's point, with `(u, v)`: two on an edge.
@@ -86,8 +109,8 @@ impl Audit {
             nearest: NONE,
             favourite,
             held: [NONE; 2],
-            is_done: false,
-            waits: false,
+            stage: Stage::Fresh,
+            seen: DistanceDerivatives::NONE,
         }
     }
 
@@ -100,8 +123,9 @@ impl Audit {
 
     /// Takes the lower bound of `φ` of the candidate, and goes on to the next; the last one ends the pass.
     #[inline(never)]
-    fn go_on<D: Displacement>(&mut self, body: &Body<'_, D>, at_least: f32) {
-        let floor = sqrt(2.0 * at_least) * BELOW - sqrt_from_above((self.asked - self.anchor).length_squared());
+    fn go_on<D: Displacement>(&mut self, body: &Body<'_, D>) {
+        let floor =
+            sqrt(2.0 * self.descending.at_least) * BELOW - sqrt_from_above((self.asked - self.anchor).length_squared());
         if floor < self.floor {
             (self.floor, self.nearest) = (floor, self.entry);
         }
@@ -117,7 +141,7 @@ impl Audit {
             is_last = !body.candidate(usize::from(self.entry)).more;
             self.entry += 1;
         }
-        self.is_done = is_last;
+        self.stage = if is_last { Stage::Rest } else { Stage::Fresh };
         if !is_last {
             self.descending = CandidateSearch::new(body.candidate(usize::from(self.entry)), MAX_EVALUATIONS_IN_AUDIT);
         }
@@ -168,24 +192,48 @@ impl<D: Displacement> Body<'_, D> {
     }
 
     /// The audit of a tick on a body that is not convex, after the tracker's steps. At most the evaluations of
-    /// [`super::Effort`], and one for a point that is nearer. At an effort of one, the start of a pass and that point
-    /// have a tick of their own.
+    /// [`super::Effort`], and one for a point that is nearer. At an effort of one, one [`Stage`] a tick, and none in up to
+    /// [`MAX_DEFERRED`] ticks of a pass in which the tracker is on its way.
     #[inline(never)]
     pub(super) fn audit(&self, state: &mut BodyWitness, is_settled: bool, step: &mut BodyStep) {
+        let is_single = self.effort.candidates == 1;
+        if is_single && !is_settled && state.deferred < MAX_DEFERRED {
+            state.deferred += 1;
+            return;
+        }
         let probe = state.probe;
         let squared = (state.witness.surface.point - probe).length_squared();
-        let (known, distance) = ((0.5 - 0.5 * NEARER) * squared, sqrt_from_above(squared));
+        let known = (0.5 - 0.5 * NEARER) * squared;
+        let distance = || sqrt_from_above(squared);
+        let stage = match &state.seeking {
+            Some(Seeking::Nearer(audit)) => audit.stage,
+            _ => Stage::Start,
+        };
         // A tracker that is on its way is not at a minimum.
-        let places = if is_settled { self.places(&state.feature, &state.witness) } else { [None; 2] };
-        let (is_single, far) = (self.effort.candidates == 1, distance + MARGIN * self.size);
-        let mut left = self.effort.candidates;
-        match &state.seeking {
-            Some(Seeking::Nearer(audit)) if !audit.is_done => {}
-            Some(Seeking::Nearer(audit)) if audit.is_certain(self, probe, distance, &places) => return,
-            last => {
-                left -= u8::from(is_single);
-                let last = if let Some(Seeking::Nearer(last)) = last { Some(last) } else { None };
-                state.seeking = Some(Seeking::Nearer(Audit::new(self, probe, last)));
+        let is_asked = !is_single || matches!(stage, Stage::Rest | Stage::Fresh | Stage::GoOn);
+        let places = if is_settled && is_asked { self.places(&state.feature, &state.witness) } else { [None; 2] };
+        // A candidate that is passed over at an effort of one is not followed by an evaluation.
+        let mut left = if is_single && stage == Stage::Fresh { 0 } else { self.effort.candidates };
+        if let Some(Seeking::Nearer(audit)) = &mut state.seeking
+            && audit.stage == Stage::Rest
+        {
+            if audit.is_certain(self, probe, distance(), &places) {
+                return;
+            }
+            audit.stage = Stage::Start;
+            if is_single {
+                return;
+            }
+        }
+        let last = match &state.seeking {
+            Some(Seeking::Nearer(audit)) => Some(audit),
+            _ => None,
+        };
+        if last.is_none_or(|audit| audit.stage == Stage::Start) {
+            state.seeking = Some(Seeking::Nearer(Audit::new(self, probe, last)));
+            state.deferred = 0;
+            if is_single {
+                return;
             }
         }
         // A certificate is of one shape: a body that deforms is searched without end.
@@ -196,55 +244,70 @@ impl<D: Displacement> Body<'_, D> {
         }
         // In its place: a copy there and back would take 180 instructions.
         while let Some(Seeking::Nearer(audit)) = &mut state.seeking {
-            let CandidateSearch { candidate: Candidate { face, .. }, parameters, half_squared, .. } = audit.descending;
-            if audit.waits {
-                audit.waits = false;
-                audit.go_on(self, 0.0);
-                self.set_down(state, &Best { face, parameters, half_squared }, known, step);
-                if step.switched {
-                    state.seeking = None;
-                }
-                return;
-            }
-            if audit.is_done {
-                return;
-            }
-            if audit.descending.is_fresh() {
-                if holds(&audit.descending.candidate, &places)
-                    && let Some(free) = audit.held.iter_mut().find(|held| **held == NONE)
-                {
-                    *free = audit.entry;
-                    audit.skip(self);
+            let mut is_nearer = false;
+            match audit.stage {
+                Stage::Start | Stage::Rest => return,
+                Stage::Fresh => {
+                    if holds(&audit.descending.candidate, &places)
+                        && let Some(free) = audit.held.iter_mut().find(|held| **held == NONE)
+                    {
+                        *free = audit.entry;
+                        audit.skip(self);
+                    } else if left > 0 || is_single {
+                        audit.stage = Stage::Evaluate;
+                    } else {
+                        return;
+                    }
                     continue;
                 }
-                audit.asked = probe;
-            }
-            if left == 0 {
-                return;
-            }
-            left -= 1;
-            step.evaluations += 1;
-            let progress = self.search_on::<false>(&mut audit.descending, audit.asked, 0.5 * far * far);
-            let CandidateSearch { parameters, half_squared, at_least, .. } = audit.descending;
-            let falls = progress == Some(CandidateStatus::Falling);
-            if is_single && half_squared < known {
-                audit.waits = true;
-                return;
-            }
-            let is_nearer = (!falls || left == 0) && half_squared < known;
-            match progress {
-                Some(CandidateStatus::Falling) => {}
-                Some(CandidateStatus::Beaten) => audit.go_on(self, at_least),
-                Some(CandidateStatus::Found) => audit.go_on(self, half_squared),
-                Some(CandidateStatus::Exhausted) | None => audit.go_on(self, 0.0),
+                Stage::Evaluate => {
+                    if left == 0 {
+                        return;
+                    }
+                    left -= 1;
+                    step.evaluations += 1;
+                    if audit.descending.is_fresh() {
+                        audit.asked = probe;
+                    }
+                    if let Some(seen) = self.see(&audit.descending, audit.asked) {
+                        audit.seen = seen;
+                    }
+                    audit.stage = Stage::Judge;
+                }
+                Stage::Judge => {
+                    let (search, far) = (&mut audit.descending, distance() + MARGIN * self.size);
+                    let status = self.judge::<false>(search, &audit.seen, 0.5 * far * far);
+                    let falls = status == Some(CandidateStatus::Falling);
+                    match status {
+                        Some(CandidateStatus::Falling | CandidateStatus::Beaten) => {}
+                        Some(CandidateStatus::Found) => search.at_least = search.half_squared,
+                        Some(CandidateStatus::Exhausted) | None => search.at_least = 0.0,
+                    }
+                    is_nearer = search.half_squared < known && (is_single || !falls || left == 0);
+                    audit.stage = if falls { Stage::Evaluate } else { Stage::GoOn };
+                    if is_single && is_nearer {
+                        (audit.stage, search.at_least, is_nearer) = (Stage::SetDown, 0.0, false);
+                    }
+                }
+                Stage::SetDown => (audit.stage, is_nearer) = (Stage::GoOn, true),
+                Stage::GoOn => {
+                    audit.go_on(self);
+                    left -= u8::from(is_single);
+                    continue;
+                }
             }
             if is_nearer {
+                let CandidateSearch { candidate: Candidate { face, .. }, parameters, half_squared, .. } =
+                    audit.descending;
                 self.set_down(state, &Best { face, parameters, half_squared }, known, step);
                 if step.switched {
                     // The point that was left may be the next that is nearer.
                     state.seeking = None;
                     return;
                 }
+            }
+            if is_single {
+                return;
             }
         }
     }

@@ -103,12 +103,8 @@ impl CandidateSearch {
         known: f32,
         size: f32,
     ) -> CandidateStatus {
-        // Without poles their arithmetic is not compiled in.
-        if poles == 0 {
-            self.step_apart::<D, TO_REST>(patch, probe, known, size)
-        } else {
-            self.step_near_pole::<D, TO_REST>(patch, poles, probe, known, size)
-        }
+        let seen = self.see(patch, probe);
+        self.judge::<D, TO_REST>(patch, poles, &seen, known, size)
     }
 
     /// Whether nothing has been evaluated yet.
@@ -116,33 +112,52 @@ impl CandidateSearch {
         self.half_squared == f32::INFINITY
     }
 
-    #[inline(never)]
-    fn step_apart<D: Displacement, const TO_REST: bool>(
-        &mut self,
-        patch: Displaced<'_, D>,
-        probe: Vec3,
-        known: f32,
-        size: f32,
-    ) -> CandidateStatus {
-        self.judged::<D, TO_REST>(patch, 0, self.seen(patch, probe), known, size)
+    /// The evaluation of a step.
+    #[inline]
+    pub(super) fn see<D: Displacement>(&self, patch: Displaced<'_, D>, probe: Vec3) -> DistanceDerivatives {
+        let curved = patch.evaluate_apart(self.trial);
+        DistanceDerivatives::new(&curved, curved.surface.point - probe)
     }
 
-    #[inline(never)]
-    fn step_near_pole<D: Displacement, const TO_REST: bool>(
+    /// The choice of the next parameters from what was seen at the last ones.
+    #[inline]
+    pub(super) fn judge<D: Displacement, const TO_REST: bool>(
         &mut self,
         patch: Displaced<'_, D>,
         poles: u8,
-        probe: Vec3,
+        seen: &DistanceDerivatives,
         known: f32,
         size: f32,
     ) -> CandidateStatus {
-        self.judged::<D, TO_REST>(patch, poles, self.seen(patch, probe), known, size)
+        // Without poles their arithmetic is not compiled in.
+        if poles == 0 {
+            self.judge_apart::<D, TO_REST>(patch, seen, known, size)
+        } else {
+            self.judge_near_pole::<D, TO_REST>(patch, poles, seen, known, size)
+        }
     }
 
-    #[inline(always)]
-    fn seen<D: Displacement>(&self, patch: Displaced<'_, D>, probe: Vec3) -> DistanceDerivatives {
-        let curved = patch.evaluate_apart(self.trial);
-        DistanceDerivatives::new(&curved, curved.surface.point - probe)
+    #[inline(never)]
+    fn judge_apart<D: Displacement, const TO_REST: bool>(
+        &mut self,
+        patch: Displaced<'_, D>,
+        seen: &DistanceDerivatives,
+        known: f32,
+        size: f32,
+    ) -> CandidateStatus {
+        self.judged::<D, TO_REST>(patch, 0, *seen, known, size)
+    }
+
+    #[inline(never)]
+    fn judge_near_pole<D: Displacement, const TO_REST: bool>(
+        &mut self,
+        patch: Displaced<'_, D>,
+        poles: u8,
+        seen: &DistanceDerivatives,
+        known: f32,
+        size: f32,
+    ) -> CandidateStatus {
+        self.judged::<D, TO_REST>(patch, poles, *seen, known, size)
     }
 
     #[inline(always)]

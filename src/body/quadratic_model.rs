@@ -23,6 +23,8 @@ pub(super) struct DistanceDerivatives {
 }
 
 impl DistanceDerivatives {
+    pub const NONE: Self = Self { half_squared: 0.0, gradient: [0.0; 2], form: [0.0; 3], newton: [0.0; 3] };
+
     #[inline]
     pub(super) fn new(CurvedPoint { surface, second }: &CurvedPoint, difference: Vec3) -> Self {
         let (f_u, f_v) = (surface.tangent_u, surface.tangent_v);
@@ -108,7 +110,7 @@ impl Model {
             if is_held { [0.0; 2] } else { [lower[axis], upper[axis]] }
         };
         let ([low_u, high_u], [low_v, high_v]) = (free(0), free(1));
-        Self { hessian: seen.newton, ..*self }.minimiser_on_sides([[low_u, low_v], [high_u, high_v]])
+        Self { hessian: seen.newton, ..*self }.minimiser_on_sides([[low_u, low_v], [high_u, high_v]], None)
     }
 
     /// The model's gradient after a step.
@@ -134,8 +136,8 @@ impl Model {
         (0.5 * (c * p * p + a * q * q) + b.abs() * p * q) / (a * c - b * b)
     }
 
-    /// The minimiser of the model over `range`, and the model's value there. In two variables either the free
-    /// minimiser is inside, or the best of the four sides is the minimiser.
+    /// The minimiser of the model over `range`, and the model's value there. Either the free minimiser is inside, or the
+    /// minimiser is on a side that the free one is beyond: the model falls all the way to the free one.
     #[inline(always)]
     fn minimiser(&self, [lower, upper]: [[f32; 2]; 2]) -> ([f32; 2], f32) {
         let [a, b, c] = self.hessian;
@@ -146,18 +148,21 @@ impl Model {
         if determinant > 0.0 && inside(0) && inside(1) {
             return (free, self.value(free));
         }
-        self.minimiser_on_sides([lower, upper])
+        self.minimiser_on_sides([lower, upper], (determinant > 0.0).then_some(free))
     }
 
+    /// On the sides that the free minimiser is beyond; on all four if there is none.
     #[inline(never)]
-    fn minimiser_on_sides(&self, [lower, upper]: [[f32; 2]; 2]) -> ([f32; 2], f32) {
+    fn minimiser_on_sides(&self, [lower, upper]: [[f32; 2]; 2], free: Option<[f32; 2]>) -> ([f32; 2], f32) {
         let [a, b, c] = self.hessian;
         let [p, q] = self.gradient;
         let mut best = ([0.0; 2], 0.0);
-        for u in [lower[0], upper[0]] {
+        let is_below = |axis: usize| free.is_none_or(|free| free[axis] < lower[axis]);
+        let is_above = |axis: usize| free.is_none_or(|free| free[axis] > upper[axis]);
+        for (u, _) in [(lower[0], is_below(0)), (upper[0], is_above(0))].into_iter().filter(|side| side.1) {
             self.consider([u, minimiser_on_line(q + b * u, c, [lower[1], upper[1]])], &mut best);
         }
-        for v in [lower[1], upper[1]] {
+        for (v, _) in [(lower[1], is_below(1)), (upper[1], is_above(1))].into_iter().filter(|side| side.1) {
             self.consider([minimiser_on_line(p + b * v, a, [lower[0], upper[0]]), v], &mut best);
         }
         best

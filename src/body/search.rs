@@ -9,6 +9,7 @@ use super::candidate_search::{
 use super::feature::Face;
 use super::glance;
 use super::locator::{Candidate, GRID};
+use super::quadratic_model::DistanceDerivatives;
 use super::table::Body;
 use crate::field::Displacement;
 use crate::math::{Vec3, sqrt, sqrt_from_above};
@@ -266,10 +267,28 @@ impl<D: Displacement> Body<'_, D> {
         probe: Vec3,
         known: f32,
     ) -> Option<CandidateStatus> {
-        let Candidate { face, .. } = search.candidate;
-        let on = self.faces.get(usize::from(face))?;
+        let seen = self.see(search, probe)?;
+        self.judge::<TO_REST>(search, &seen, known)
+    }
+
+    /// The evaluation alone.
+    #[inline]
+    pub(super) fn see(&self, search: &CandidateSearch, probe: Vec3) -> Option<DistanceDerivatives> {
+        let on = self.faces.get(usize::from(search.candidate.face))?;
+        Some(search.see(self.patch(on), probe))
+    }
+
+    /// The rest of that step.
+    #[inline]
+    pub(super) fn judge<const TO_REST: bool>(
+        &self,
+        search: &mut CandidateSearch,
+        seen: &DistanceDerivatives,
+        known: f32,
+    ) -> Option<CandidateStatus> {
+        let on = self.faces.get(usize::from(search.candidate.face))?;
         let poles = if self.has_poles { on.poles() } else { 0 };
-        Some(search.step_on::<D, TO_REST>(self.patch(on), poles, probe, known, self.size))
+        Some(search.judge::<D, TO_REST>(self.patch(on), poles, seen, known, self.size))
     }
 
     /// A search from the middle of a candidate.

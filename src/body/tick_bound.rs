@@ -1,6 +1,6 @@
 //! The worst-case work of one tick on a body, from its tables (theory §10): a bound of every tick, whatever the probe.
 
-use super::audit::MAX_EVALUATIONS_IN_AUDIT;
+use super::audit::{MAX_DEFERRED, MAX_EVALUATIONS_IN_AUDIT};
 use super::feature::{Edge, EdgeFace, EdgeKind, Face, Separator, Side, Spoke, Vertex};
 use super::table::Body;
 use super::tick_cost as cost;
@@ -160,9 +160,15 @@ impl<D: Displacement> Body<'_, D> {
 
     /// Bound of the ticks of one pass of the audit on a body that is not convex: of each candidate at most six
     /// evaluations, at [`Effort::candidates`] a tick. A nearer point that six find is taken within two passes.
+    ///
+    /// At an effort of one each evaluation is judged in the next tick. A candidate's end and its nearer point have a tick
+    /// each too, a pass has three to start, and eight are left to the tracker.
     pub const fn audit_ticks(&self) -> u32 {
-        let all = self.locator.longest_list() as u32 * MAX_EVALUATIONS_IN_AUDIT as u32;
-        all.div_ceil(if self.effort.candidates > 1 { self.effort.candidates as u32 } else { 1 })
+        let (list, evaluations) = (self.locator.longest_list() as u32, MAX_EVALUATIONS_IN_AUDIT as u32);
+        match self.effort.candidates {
+            0..=1 => list * (2 * evaluations + 2) + 3 + MAX_DEFERRED as u32,
+            candidates => (list * evaluations).div_ceil(candidates as u32),
+        }
     }
 
     /// Bound of the cycles of every servo tick on a Cortex-M4F, by a model of its instructions (theory §10).

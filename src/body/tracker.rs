@@ -65,6 +65,8 @@ pub struct BodyWitness {
     pub(super) takes_part: bool,
     /// On an edge: whether the last tick asked all of its faces, and none took the probe.
     pub(super) no_face_took_probe: bool,
+    /// Ticks of the audit's pass that it has left to the tracker.
+    pub(super) deferred: u8,
     /// The search for a global start, or the audit.
     pub(super) seeking: Option<Seeking>,
     /// The probe of the last tick; infinite before the first.
@@ -129,6 +131,7 @@ impl<D: Displacement> Body<'_, D> {
             is_trackers_turn: false,
             takes_part: false,
             no_face_took_probe: false,
+            deferred: 0,
             seeking: None,
             probe: Vec3::INFINITY,
             reach: 0.0,

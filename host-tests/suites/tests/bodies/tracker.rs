@@ -211,6 +211,39 @@ fn too_deep_is_deeper_than_the_least_radius_of_curvature() {
     assert!(scene.body.is_too_deep(&state));
 }
 
+/// At an effort of one the audit leaves ticks to a tracker that is on its way, but not all of them: a probe that goes
+/// from one side of a ridge to the other in each tick has the nearer sheet within two passes.
+#[test]
+fn a_tracker_that_never_settles_does_not_keep_the_audit_from_a_nearer_sheet() {
+    let sheet = |name: &str, [low, high]: [f64; 2], [z_low, z_high]: [f64; 2]| {
+        let row = |x: f64, z: f64| format!("[[{x}, -10.0, {z}], [{x}, 10.0, {z}]]");
+        let rows = format!("[{}, {}]", row(low, z_low), row(high, z_high));
+        format!("[[patch]]\nname = \"{name}\"\ndegree = [1, 1]\npoints = {rows}\n")
+    };
+    let text = [
+        "name = \"sheets\"\nunit = \"mm\"\n".to_owned(),
+        sheet("left", [-20.0, 0.0], [-2.0, 0.0]),
+        sheet("right", [0.0, 20.0], [0.0, -2.0]),
+        sheet("above", [20.0, -20.0], [10.0, 10.0]),
+    ];
+    let scene = Scene::parsed("sheets", &text.concat());
+    let body = scene.body.with_effort(Effort::ONE);
+    assert!(!body.is_convex());
+    let mut state = body.start();
+    let mut late = 0;
+    for tick in 0..400_u32 {
+        let x = if tick % 2 == 0 { -2e-3 } else { 2e-3 };
+        let probe = vec3(x, 0.0, (3e-3 + 2e-5 * tick as f32).min(7e-3));
+        body.step(&Controller::SecondOrder, &mut state, Probe::at(probe), PERIOD);
+        let is_above = state.witness.surface.point.z > 5e-3;
+        // By more than the two roofs differ.
+        late += u32::from(probe.z > 5.5e-3 && !is_above);
+    }
+    let pass = body.audit_ticks();
+    println!("late by {late} ticks; a pass is {pass} at most");
+    assert!(state.witness.surface.point.z > 5e-3 && late <= 2 * pass, "late by {late} ticks");
+}
+
 #[test]
 fn the_state_of_a_body_is_small() {
     measured("RAM of the state of a tracked body", size_of::<BodyWitness>());

@@ -5,7 +5,7 @@ use super::{progress, table_report};
 use crate::models::ModelFile;
 use anyhow::Context as _;
 use clap::Args;
-use palpate::body::{EdgeKind, TickLimit};
+use palpate::body::{EdgeKind, Effort, TickLimit};
 use palpate::track::{Integrator, PerformanceLimits};
 use palpate_bake::body::BakedSide;
 use palpate_bake::certificate::{Certificate, Finding};
@@ -305,9 +305,10 @@ fn ride(report: &mut String, arguments: &Arguments, loaded: &Loaded) -> anyhow::
         )?;
     } else {
         let (candidates, pass) = (body.locator().longest_list(), body.audit_ticks());
+        let alone = body.with_effort(Effort::ONE).audit_ticks();
         writeln!(
             report,
-            "the audit looks at all candidates of the probe's cell, {candidates} at most, within {pass} ticks ({:.0} ms) by construction",
+            "the audit looks at all candidates of the probe's cell, {candidates} at most, within {pass} ticks ({:.0} ms) by construction, at effort 1,1 within {alone}",
             1e3 * pass as f32 / rate
         )?;
     }

@@ -2,8 +2,8 @@
 
 use crate::firmware::{BenchBoard, Kind};
 use palpate::body::{
-    Body, MAX_EVALUATIONS, MAX_EVALUATIONS_CONVEX, MAX_EVALUATIONS_PER_CANDIDATE, MAX_EVALUATIONS_PER_CANDIDATE_CONVEX,
-    TickLimit, TickWork,
+    Body, Effort, MAX_EVALUATIONS, MAX_EVALUATIONS_CONVEX, MAX_EVALUATIONS_PER_CANDIDATE,
+    MAX_EVALUATIONS_PER_CANDIDATE_CONVEX, TickLimit, TickWork,
 };
 use palpate_bake::body::{BakedBody, BodyBytes, room};
 use palpate_bake::locator::{LeafCounts, LocatorReport};
@@ -57,8 +57,11 @@ pub(super) fn of_tick(body: &Body<'_>, limit: TickLimit) -> Result<String, Error
     );
     row(&mut report, "worst tick", worst.cost as usize, &meaning)?;
     if !body.is_convex() {
-        let meaning = "ticks at most in a pass; two take a nearer point that six evaluations find";
-        row(&mut report, "audit", body.audit_ticks() as usize, meaning)?;
+        let alone = body.with_effort(Effort::ONE).audit_ticks();
+        let meaning = format!(
+            "ticks at most in a pass, {alone} at effort 1,1; two take a nearer point that six evaluations find"
+        );
+        row(&mut report, "audit", body.audit_ticks() as usize, &meaning)?;
     }
     Ok(report)
 }
