@@ -25,6 +25,8 @@ const value = (id) => Number(by(`knob-${id}`).value);
 
 /** What the sliders say of each part: its number in src/knob.rs, and its numbers, in radians and N·m. */
 const PARTS = {
+  // First: stiff parts need it.
+  damping: () => [5, value("damping") * MILLI, 0, 0, 0],
   detents: () => [0, value("pitch") * DEGREE, smooth() ? value("strength") * MILLI : 0, 0, 0],
   clicks: () => {
     const count = value("count"),
@@ -32,15 +34,15 @@ const PARTS = {
     return [1, value("pitch") * DEGREE, smooth() ? 0 : value("strength") * MILLI, first, first + count - 1];
   },
   texture: () => [2, 5 * DEGREE, value("texture") * MILLI, 0, 0],
-  spring: () => [3, value("spring") * MILLI, 0, 0.04, 0],
+  spring: () => [3, value("spring") * MILLI, 0, 0.02, 0],
   // The last place of the slider is none.
-  stops: () => {
+  "end stops": () => {
     const stops = value("stops") * DEGREE;
-    return [4, -stops, stops, isEndless() ? 0 : value("hardness"), 1.5e-3];
+    // Damped for the time that the torque comes late, and a little more.
+    return [4, -stops, stops, isEndless() ? 0 : value("hardness"), 1e-3 * value("hardness")];
   },
-  damping: () => [5, value("damping") * MILLI, 0, 0, 0],
-  friction: () => [6, value("rub") * MILLI, 2, 0, 0],
-  notch: () => [7, value("click-at") * DEGREE, 10 * DEGREE, value("click") * MILLI, 0],
+  friction: () => [6, value("rub") * MILLI, 6, 0, 0],
+  click: () => [7, value("click-at") * DEGREE, 10 * DEGREE, value("click") * MILLI, 0],
 };
 /** Which parts a slider changes. */
 const CHANGES = {
@@ -48,14 +50,14 @@ const CHANGES = {
   pitch: ["detents", "clicks"],
   strength: ["detents", "clicks"],
   count: ["clicks"],
-  stops: ["stops"],
-  hardness: ["stops"],
+  stops: ["end stops"],
+  hardness: ["end stops"],
   spring: ["spring"],
   damping: ["damping"],
   rub: ["friction"],
   texture: ["texture"],
-  click: ["notch"],
-  "click-at": ["notch"],
+  click: ["click"],
+  "click-at": ["click"],
 };
 
 const smooth = () => by("knob-shape").value === "smooth";
@@ -67,7 +69,7 @@ export class Knob {
     this.canvas = by("dial");
     Object.assign(this, { hand: 0, grip: null, idle: 0, clock: 0, owed: 0, view: null, curve: null });
     for (const slider of [...SLIDERS, "shape"])
-      by(`knob-${slider}`).addEventListener("input", () => this.set(CHANGES[slider]));
+      by(`knob-${slider}`).addEventListener("input", () => this.change(slider));
     const { canvas } = this;
     this.presence = new Presence(canvas);
     canvas.addEventListener("pointerdown", (event) => {
@@ -93,28 +95,49 @@ export class Knob {
     this.device = await Device.bare();
     this.view = this.device.turnKnob(1, 0, true);
     this.set(Object.keys(PARTS));
+    this.keep();
   }
 
-  /** Sets parts as the sliders say, and those of a device if the reader wants that. */
+  /** Sets what a slider changes, or puts it back to what is in force and says why beside it. */
+  change(slider) {
+    this.moved = slider;
+    // The kind of detents that goes makes room for the other.
+    const parts = () => (smooth() ? [...CHANGES[slider]].reverse() : CHANGES[slider]);
+    const refusal = this.set(parts());
+    if (refusal) {
+      by(`knob-${slider}`).value = this.inForce[slider];
+      this.set(parts());
+    } else if (by("knob-live").checked) for (const part of parts()) this.page.live?.orders.set(part, PARTS[part]());
+    this.keep();
+    this.refuse(refusal);
+  }
+
+  /** Sets parts of the dial as the sliders say; why one is refused. */
   set(parts) {
-    this.say();
-    const refusals = [];
-    for (const part of parts) {
-      const numbers = PARTS[part]();
-      try {
-        this.device?.setKnob(numbers);
-      } catch (error) {
-        refusals.push(`${part}: ${error.message}`);
-      }
-      if (by("knob-live").checked) this.page.live?.orders.set(part, numbers);
-    }
-    this.refuse(refusals.join("; "));
     this.curve = null;
+    try {
+      for (const part of parts) this.device?.setKnob(PARTS[part]());
+    } catch (error) {
+      return error.message;
+    }
+    return "";
   }
 
+  /** Keeps what the sliders stand on, which is in force. */
+  keep() {
+    this.inForce = Object.fromEntries([...SLIDERS, "shape"].map((slider) => [slider, by(`knob-${slider}`).value]));
+    this.say();
+  }
+
+  /** Says beside the slider that was moved last what is wrong, or that nothing is. */
   refuse(message) {
-    by("knob-refusal").hidden = !message;
-    by("knob-refusal").textContent = message;
+    const said = by("knob-refusal"),
+      row = by(`knob-${this.moved}`).closest("label");
+    said.hidden = !message;
+    if (!message) return;
+    said.textContent = `${row.firstElementChild.textContent}: ${message}`;
+    row.after(said);
+    said.scrollIntoView({ block: "nearest" });
   }
 
   say() {

@@ -68,6 +68,7 @@ export async function toggle(page) {
     };
     page.live.orders = new Orders(device, write, (refusal) => {
       by("knob-said").textContent = refusal || "the device has it";
+      if (refusal) page.knob.refuse(refusal);
     });
     page.live.stop = listen(port, device, tell);
     buttons.forEach((button) => (button.textContent = "Disconnect"));

@@ -32,7 +32,7 @@ fn open() -> anyhow::Result<Page> {
 #[test]
 fn sliders_set_the_dial_without_a_step_and_within_its_limits() -> anyhow::Result<()> {
     let page = open()?;
-    slide(&page, &[("stops", 180.0), ("damping", 0.0), ("pitch", 12.0), ("strength", 20.0)])?;
+    slide(&page, &[("stops", 180.0), ("damping", 1.0), ("strength", 20.0), ("pitch", 12.0)])?;
     let pitch = 12_f64.to_radians();
     for degrees in [0.0, 2.0, 3.0, 4.5, -3.0, 14.0] {
         let at = f64::to_radians(degrees);
@@ -44,22 +44,52 @@ fn sliders_set_the_dial_without_a_step_and_within_its_limits() -> anyhow::Result
         ensure!((torque - expected).abs() < 2.4e-4, "at {degrees}°: {torque} N·m, expected {expected}");
         ensure!(number("phase")? == 3.0 && number("fault")? == 0.0, "{view}");
     }
-    // Parts change in the middle of a turn, which changes a torque by 0.2 mN·m in a tick by itself.
-    for (turn, change) in
-        [("strength", 45.0), ("pitch", 20.0), ("spring", 100.0), ("rub", 5.0), ("click", 20.0), ("strength", 5.0)]
-            .into_iter()
-            .enumerate()
-    {
+    // Parts change in the middle of a turn, which changes a torque by 0.2 mN·m in a tick by itself; friction, which goes
+    // with the noise of a rate, by more, so that it is gone before the next.
+    let changes = [
+        ("strength", 45.0),
+        ("pitch", 20.0),
+        ("strength", 20.0),
+        ("spring", 100.0),
+        ("rub", 5.0),
+        ("rub", 0.0),
+        ("click", 15.0),
+        ("strength", 5.0),
+    ];
+    for (turn, change) in changes.into_iter().enumerate() {
         slide(&page, &[change])?;
+        let is_taken = page.ask("document.getElementById('knob-refusal').hidden")? == true;
+        ensure!(is_taken, "{change:?}: {}", page.ask("document.getElementById('knob-refusal').textContent")?);
         let at = 0.3 + 0.02 * turn as f64;
         let step = page.ask(&format!("palpate.turnKnob({at}, 80)"))?["step"].as_f64().context("no step")?;
         println!("{change:?}: at most {:.3} mN·m a tick", step * 1e3);
         ensure!((1e-5..1e-3).contains(&step), "{change:?}: {step} N·m in a tick");
     }
-    slide(&page, &[("strength", 50.0), ("texture", 15.0)])?;
-    let refusal = page.ask("document.getElementById('knob-refusal').textContent")?;
-    let words = "texture: with it the feel is as stiff as";
-    ensure!(refusal.as_str().is_some_and(|text| text.starts_with(words)), "{refusal}");
+    // Refused: beside the slider, which goes back to what is in force.
+    slide(&page, &[("damping", 2.0), ("spring", 0.0), ("click", 0.0), ("strength", 50.0)])?;
+    for (slider, to, back, words) in [
+        ("texture", 15.0, "0", "texture: with it the feel is as stiff as "),
+        ("damping", 0.0, "2", "damping: with it a dial that is let go of would ring: "),
+        ("hardness", 1.2, "0.4", "hardness: with it the feel is as stiff as "),
+    ] {
+        slide(&page, &[("stops", 60.0), (slider, to)])?;
+        let state = page.ask(&format!(
+            "(({{ textContent, hidden, previousElementSibling }}, slider) => [textContent, hidden, slider.value, \
+             previousElementSibling === slider.closest('label'), slider.nextElementSibling.textContent.split(' ')[0]])\
+             (document.getElementById('knob-refusal'), document.getElementById('knob-{slider}'))"
+        ))?;
+        ensure!(state[0].as_str().is_some_and(|text| text.starts_with(words)), "{state}");
+        ensure!(state[1] == false && state[2] == back && state[3] == true && state[4] == back, "{state}");
+    }
+    // From clicks to smooth detents and back, each with the torque of the other in its way.
+    for shape in ["'clicks'", "'smooth'", "'clicks'"] {
+        slide(&page, &[("strength", 45.0)])?;
+        page.ask(&format!(
+            "(() => {{ const shape = document.getElementById('knob-shape'); shape.value = {shape}; \
+             shape.dispatchEvent(new Event('input')); }})()"
+        ))?;
+        ensure!(page.ask("document.getElementById('knob-refusal').hidden")? == true, "{shape}");
+    }
     slide(&page, &[("texture", 0.0)])?;
     ensure!(page.ask("document.getElementById('knob-refusal').hidden")? == true, "still refused");
     ensure!(page.errors().is_empty(), "on the console: {:?}", page.errors());
