@@ -1,19 +1,26 @@
 // Files that a reader opens or drops: a body, a device, a recording, or a table of places.
 
 import { read } from "bodies";
-import { open, places } from "recording";
+import { along, open, places } from "recording";
+import { number } from "choices";
+
+const KINDS =
+  "the page takes a body (.palp), a device (.toml), a recording (.json) or a table (.csv); " +
+  "models and CAD (.step) are baked first: cargo palpate bake";
 
 /** Opens a file by what its name ends in; whether it was taken. */
 export async function openFile(page, file) {
   const { name } = file;
+  const refuse = (why) => (page.refuse(`${name}: ${why}`), false);
+  if (!/\.(palp|toml|json|csv|step|stp)$/i.test(name)) return refuse(KINDS);
+  if (!file.size) return refuse("the file is empty");
   if (/\.palp$/i.test(name)) return page.take(body(file, name));
   const text = await file.text();
   if (/\.(step|stp)$/i.test(name) || /^\s*\[\[patch\]\]/m.test(text)) {
-    page.refuse(`${name}: a model, not baked yet: cargo palpate bake ${name} --out ${name.replace(/\.\w+$/, "")}.palp`);
-    return false;
+    return refuse(`a model, not baked yet: cargo palpate bake ${name} --out ${name.replace(/\.\w+$/, "")}.palp`);
   }
   if (/\.toml$/i.test(name)) return page.held.open(text, name);
-  return /\.csv$/i.test(name) ? openTable(page, text) : openRecording(page, text, name);
+  return /\.csv$/i.test(name) ? openTable(page, text, name) : openRecording(page, text, name);
 }
 
 async function body(file, name) {
@@ -33,9 +40,11 @@ export async function openRecording(page, text, name) {
   return opened;
 }
 
-function openTable(page, text) {
+function openTable(page, text, title) {
+  const { device } = page.body;
   try {
-    page.loop.follow(places(text, page.body.device.centre, page.held.numbers.name));
+    const table = { ...places(text, device.centre, page.held.numbers.name), title };
+    page.player.open(along(table, device, number("rate")));
     page.refuse(null);
     return true;
   } catch (error) {

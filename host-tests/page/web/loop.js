@@ -18,7 +18,6 @@ export class Loop {
   /** Begins on another device. */
   begin(device) {
     this.device = device;
-    this.table = null;
     this.place = this.room.unplace(this.room.front.clone().multiplyScalar(0.9));
     device.restart(this.place);
     this.strolls = true;
@@ -35,11 +34,6 @@ export class Loop {
     if (this.room.place(this.place).distanceTo(place) <= near) return;
     this.place = this.room.unplace(place);
     this.device.restart(this.place);
-  }
-
-  /** The hand goes where the probe was, by a table of places. */
-  follow(table) {
-    this.table = Object.assign(table, { at: 0, began: this.clock });
   }
 
   /** So many seconds of a frame; the projection errors of its ticks. */
@@ -60,14 +54,7 @@ export class Loop {
   }
 
   next(seconds) {
-    if (this.table) return this.along(this.table);
     return this.strolls ? this.ease(seconds) : this.pointer.towards(this.place, seconds);
-  }
-
-  along(table) {
-    while (table.at + 1 < table.length && table[table.at + 1].time < this.clock - table.began) table.at += 1;
-    if (table.at + 1 >= table.length) this.table = null;
-    return table[table.at].place;
   }
 
   // From wherever the stylus is to where it strolls.

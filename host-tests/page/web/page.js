@@ -95,6 +95,7 @@ export class Page {
     say();
     try {
       this.body.device.choose(choices(this.held.damping));
+      this.player.again(this.body.device, number("rate"));
       this.refuse(null);
     } catch (error) {
       this.refuse(error.message);

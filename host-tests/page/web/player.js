@@ -1,6 +1,7 @@
-// A recording that is shown: its views in time, and the bar to move in it.
+// A recording or a table that is shown: its views in time, and the bar to move in it.
 
 import { pace } from "choices";
+import { along } from "recording";
 
 const by = (id) => document.getElementById(id);
 
@@ -21,8 +22,16 @@ export class Player {
     by("time").max = recording.views.length - 1;
     by("timeline").hidden = false;
     by("device").disabled = true;
-    by("device-about").textContent = `This run was made with ${recording.with}.`;
-    by("live").textContent = `state hash ${recording.hash}: ${recording.on}’s, bit for bit`;
+    by("device-about").textContent = recording.with ? `This run was made with ${recording.with}.` : "";
+    by("proven").hidden = false;
+    by("proven").textContent = recording.hash
+      ? `✓ A run of ${recording.on}: here it comes to the same state hash ${recording.hash}, bit for bit.`
+      : `The places of ${recording.title}${recording.with ? `, made with ${recording.with}` : ""}, with the settings here.`;
+  }
+
+  /** Renders a table again, with other settings. */
+  again(device, rate) {
+    if (this.recording?.places) this.recording = along(this.recording, device, rate);
   }
 
   /** Stands at a time, s. */
@@ -35,7 +44,7 @@ export class Player {
   close() {
     this.recording = null;
     by("device").disabled = false;
-    by("timeline").hidden = true;
+    by("timeline").hidden = by("proven").hidden = true;
   }
 
   /** The view after so many seconds more. */

@@ -90,7 +90,13 @@ function counts(bytes, ticks, enableAt) {
   return rows;
 }
 
-/** The probe's places of a table that `palpate sim --csv` has written with a device, in the frame of the tables, one a time. */
+/** Seconds between two views of a table: ticks of any rate. */
+const APART = 4e-3;
+
+/**
+ * The probe's places of a table that `palpate sim --csv` has written with a device, in the frame of the tables, evenly in
+ * time; and that device.
+ */
 export function places(text, centre, held) {
   const [head, ...lines] = text
     .trim()
@@ -100,8 +106,19 @@ export function places(text, centre, held) {
   if (columns.includes(-1)) throw new Error("a table needs the columns time, probe_x, probe_y and probe_z");
   const made = lines[0]?.[head.indexOf("device")];
   if (held && made && made !== held) throw new Error(`the table was made with ${made}, and ${held} is held: hold ${made}, or the mouse`);
-  return lines.map((line) => {
-    const [time, ...place] = columns.map((column) => Number(line[column]));
-    return { time, place: place.map((coordinate, axis) => coordinate - centre[axis]) };
-  });
+  const rows = lines.map((line) => columns.map((column) => Number(line[column])));
+  if (!rows.length || rows.flat().some(Number.isNaN)) throw new Error("a table needs rows, and numbers in each");
+  const found = [];
+  for (let at = 0, time = rows[0][0]; time <= rows.at(-1)[0]; time += APART) {
+    while (at + 1 < rows.length && rows[at + 1][0] <= time) at += 1;
+    found.push(rows[at].slice(1).map((coordinate, axis) => coordinate - centre[axis]));
+  }
+  return { places: found, with: made };
+}
+
+/** What the loop in the hand, with its rate, does at the places of a table: a recording. */
+export function along(table, device, rate) {
+  device.restart(table.places[0]);
+  const views = table.places.map((place) => (device.run(rate * APART, place), device.view()));
+  return { ...table, views, seconds: APART };
 }

@@ -123,7 +123,10 @@ pub(super) fn write_replay(recording: &Recording, path: &Path) -> anyhow::Result
     let bodies: Vec<Shown> =
         recording.bodies.iter().map(|body| Shown::encoded(&body.name, body.file.clone())).collect();
     let first = bodies.first().map(|body| body.name.clone()).unwrap_or_default();
-    let given = Given { first, bodies, recording: Some(recording.clone()), ..given()? };
+    // Beside its report.
+    let report = path.file_name().unwrap_or_default().to_string_lossy().replace(".replay.html", ".html");
+    let links = vec![("The run’s report".to_owned(), format!("./{report}"))];
+    let given = Given { first, bodies, links, recording: Some(recording.clone()), ..given()? };
     write_whole(path, page::bundle(&given, &firmware)?.as_bytes())?;
     Ok(true)
 }

@@ -31,6 +31,16 @@ fn a_body_is_taken_and_a_spoiled_one_is_refused_in_the_words_of_the_device() -> 
     }
     let state = dropped(&page, "short.palp", &bytes[..7])?;
     ensure!(state["refusal"].is_string(), "a file cut short is taken");
+    for (name, bytes, words) in [
+        ("part.stl", &b"solid"[..], "part.stl: the page takes a body (.palp), a device (.toml), "),
+        ("photo.png", b"\x89PNG", "photo.png: the page takes a body (.palp), "),
+        ("none.palp", b"", "none.palp: the file is empty"),
+        ("none.csv", b"", "none.csv: the file is empty"),
+        ("head.csv", b"time,probe_x,probe_y,probe_z\n", "a table needs rows"),
+    ] {
+        let state = dropped(&page, name, bytes)?;
+        ensure!(state["refusal"].as_str().is_some_and(|text| text.starts_with(words)), "{name}: {state}");
+    }
     let state = dropped(&page, "run.json", b"{}")?;
     ensure!(state["refusal"].as_str().is_some_and(|words| words.contains("not a recording")), "{state}");
     // A device's file has the same ending.

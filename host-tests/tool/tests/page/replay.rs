@@ -5,7 +5,7 @@ use crate::tool::{palpate, repository};
 use anyhow::{Context as _, ensure};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::fs;
 
 const SCENE: &str = "host-tests/scenes/turntable.toml";
@@ -183,6 +183,18 @@ fn a_recording_of_another_body_device_or_run_is_refused_and_says_which() -> anyh
         let taken = page.ask(&format!("palpate.open('run.csv', {table:?})"))?;
         ensure!(taken == is_taken, "{held}: {}", page.ask("palpate.state().refusal")?);
     }
+    // A table that is shown says so, has the bar of a recording, and is computed again when a setting changes.
+    let shown = "['proven', 'timeline'].map((id) => !document.getElementById(id).hidden)";
+    ensure!(page.ask(shown)? == json!([true, true]), "a table without a bar");
+    let words = page.ask("document.getElementById('proven').textContent")?;
+    ensure!(words.as_str().is_some_and(|text| text.contains("run.csv, made with polhem-v2")), "{words}");
+    let deepest = "Math.max(...palpate.views().map(({ force }) => Math.hypot(...force)))";
+    let firm = page.number(deepest)?;
+    page.ask("((slider) => { slider.value = 200; slider.dispatchEvent(new Event('input')); })(document.getElementById('stiffness'))")?;
+    let soft = page.number(deepest)?;
+    ensure!(soft > 0.0 && soft < 0.5 * firm, "{firm} N, and softer {soft} N");
+    page.ask("palpate.page.leave()")?;
+    ensure!(page.ask(shown)? == json!([false, false]), "the bar stays");
     ensure!(page.errors().is_empty(), "on the console: {:?}", page.errors());
     Ok(())
 }
@@ -227,8 +239,22 @@ fn words_and_the_bar_of_a_recording_lie_below_the_body() -> anyhow::Result<()> {
     let page = Page::held_still()?;
     page.ask("palpate.take('capped_box')")?;
     lie_below(&page, "words")?;
+    // As a finger has it.
+    let touch = json!({ "enabled": true, "maxTouchPoints": 5 });
+    page.call("Emulation.setTouchEmulationEnabled", &touch)?;
+    let coarse = json!({ "features": [{ "name": "pointer", "value": "coarse" }] });
+    page.call("Emulation.setEmulatedMedia", &coarse)?;
     replayed(&page, &recording, line.split_whitespace().last().unwrap_or_default())?;
-    lie_below(&page, "the bar")
+    lie_below(&page, "the bar")?;
+    let hash = line.split_whitespace().last().unwrap_or_default();
+    let proven = page.ask("document.getElementById('proven').textContent")?;
+    ensure!(proven.as_str().is_some_and(|words| words.contains(hash)), "{proven}");
+    let low = page.ask(
+        "[...document.querySelectorAll('#timeline :is(button, input)')].filter((of) => of.getBoundingClientRect().height < 40)\
+         .map(({ id }) => id)",
+    )?;
+    ensure!(low == json!([]), "lower than a finger: {low}");
+    Ok(())
 }
 
 fn lie_below(page: &Page, what: &str) -> anyhow::Result<()> {
