@@ -1,5 +1,5 @@
 //! The location of a tool without history, one evaluation of a patch or one cold query of a point after another: at once
-//! for a query, a step a tick for a loop.
+//! for a query, a few a tick for a loop.
 
 use super::cells::Visit;
 use super::common_normal;
@@ -18,6 +18,10 @@ pub(super) const MAX_STEPS: u8 = 48;
 const MAX_STALLS: u8 = 12;
 /// Rounds of projections in turn before a descent.
 const ROUNDS: u8 = 3;
+/// Maximum ticks of a loop's search: what is left is the audit's.
+const MAX_SEARCH: u16 = 256;
+/// Evaluations in a tick of a loop beside a convex body, and at least, after which no other step follows.
+const EVALUATIONS: u16 = 1;
 
 /// How far a location has come. The pairs found so far are in the tracker's state.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,7 +30,11 @@ pub(super) struct Location {
     descent: Descent,
     /// Whether the pair's last descent came to rest.
     is_at_rest: bool,
+    /// Whether the signs of the normals prove the pair.
+    is_proved: bool,
     visited: u16,
+    /// Ticks of a loop in the search.
+    searched: u16,
     status: ToolStatus,
     /// Of the cores, metres; minus the depth where they intersect.
     distance: f32,
@@ -41,6 +49,17 @@ enum Stage {
     },
     /// The pair's descent. The signs of the normals prove the result on convex bodies.
     Descend,
+    /// The places of the core's corners.
+    Corners,
+    /// A corner of the core.
+    Corner {
+        index: u8,
+    },
+    /// An edge of the core: its projections in turn, then steps.
+    Edge {
+        index: u8,
+        step: u8,
+    },
     /// A walk over the cells of the body that can hold a nearer pair.
     Search,
     /// The descent from one of them.
@@ -51,15 +70,6 @@ enum Stage {
     },
     /// Whether body and core intersect.
     Part,
-    /// A corner of the core.
-    Corner {
-        index: u8,
-    },
-    /// An edge of the core: its projections in turn, then steps.
-    Edge {
-        index: u8,
-        step: u8,
-    },
     Done,
 }
 
@@ -68,7 +78,9 @@ impl Location {
         stage: Stage::Project { round: 0 },
         descent: Descent { rests: 0, stalls: 0, steps: 0, least: 0.0 },
         is_at_rest: false,
+        is_proved: false,
         visited: 0,
+        searched: 0,
         status: ToolStatus::AtRest,
         distance: 0.0,
         evaluations: 0,
@@ -95,17 +107,46 @@ impl Location {
         }
     }
 
+    /// A tick of a loop: a cold query of a point, or steps of some [`EVALUATIONS`], beside a body that is not convex as
+    /// many as the audit's. The search ends after [`MAX_SEARCH`], with the best pair.
+    pub fn tick(&mut self, body: &Body, tool: &Tool, state: &mut ToolWitness, cells: u16) {
+        // Fewer than the audit's in contact, where each is cheaper.
+        let cells = cells - cells / 4;
+        let most = if body.is_convex() || cells < EVALUATIONS { EVALUATIONS } else { cells };
+        let before = self.evaluations;
+        self.searched += u16::from(self.is_searching());
+        for _ in 0..most {
+            self.step(body, tool, state, false);
+            if self.evaluations - before >= u32::from(most) || self.is_next_cold() || self.is_done() {
+                break;
+            }
+        }
+    }
+
+    const fn is_searching(&self) -> bool {
+        matches!(self.stage, Stage::Search | Stage::Explore)
+    }
+
+    /// Whether the next step is a cold query.
+    const fn is_next_cold(&self) -> bool {
+        match self.stage {
+            Stage::Project { .. } | Stage::Corner { .. } => true,
+            Stage::Edge { step, .. } => step < ROUNDS,
+            _ => false,
+        }
+    }
+
     /// One step, at the pose that the state was made for: at most a cold query of a point and an evaluation of the
-    /// body, or a step of a pair with its switches. With `finds_depth` the common normal of smooth bodies that intersect
-    /// is searched as well, in one step of some hundred evaluations.
-    pub fn step(&mut self, body: &Body, tool: &Tool, state: &mut ToolWitness, finds_depth: bool) {
+    /// body, or a step of a pair with its switches. A query searches the common normal of smooth bodies that intersect as
+    /// well, in one step of some hundred evaluations.
+    fn step(&mut self, body: &Body, tool: &Tool, state: &mut ToolWitness, is_query: bool) {
         let (placement, region) = (*state.placement(), tool.region());
         let mut scene = Scene { body, region, placement: &placement, evaluations: 0 };
-        self.stage = self.advance(&mut scene, tool, state, finds_depth);
+        self.stage = self.advance(&mut scene, tool, state, is_query);
         self.evaluations += scene.evaluations;
     }
 
-    fn advance(&mut self, scene: &mut Scene, tool: &Tool, state: &mut ToolWitness, finds_depth: bool) -> Stage {
+    fn advance(&mut self, scene: &mut Scene, tool: &Tool, state: &mut ToolWitness, is_query: bool) -> Stage {
         let region = scene.region;
         match self.stage {
             Stage::Project { round: 0 } => {
@@ -126,8 +167,29 @@ impl Location {
             Stage::Descend => {
                 let Some(rests) = self.descent.step(scene, &mut state.pair) else { return Stage::Descend };
                 self.is_at_rest = rests;
-                let is_proved = scene.body.is_convex() && rests && scene.is_global(&state.pair);
-                if is_proved { Stage::Part } else { Stage::Search }
+                self.is_proved = scene.body.is_convex() && rests && scene.is_global(&state.pair);
+                Stage::Corners
+            }
+            Stage::Corners => {
+                let a = state.pair.a;
+                state.parts.corners = tool
+                    .corners()
+                    .map(|corner| corner.map(|b| Part::new(Pair { a, b, halvings: 0 }, b.point(), Vec3::ZERO)));
+                state.parts.count = [state.parts.corners.iter().flatten().count() as u8, 0];
+                Stage::Corner { index: 0 }
+            }
+            Stage::Corner { index } => {
+                if let Some(corner) = state.parts.corners.get_mut(usize::from(index)).and_then(Option::as_mut) {
+                    corner.pair = scene.beneath(corner.pair.b);
+                    scene.note(corner);
+                    return Stage::Corner { index: index + 1 };
+                }
+                Stage::Edge { index: 0, step: 0 }
+            }
+            Stage::Edge { index, step } => self.edge(scene, tool, state, (index, step)),
+            _ if self.is_searching() && self.searched > MAX_SEARCH => {
+                self.status = ToolStatus::StepLimit;
+                self.settle(scene, state)
             }
             Stage::Search => self.search(scene, state),
             Stage::Explore => {
@@ -156,18 +218,9 @@ impl Location {
                 Stage::Settle { round: round + 1 }
             }
             Stage::Part => {
-                self.part(scene, tool, state, finds_depth);
-                Stage::Corner { index: 0 }
+                self.part(scene, tool, state, is_query);
+                Stage::Done
             }
-            Stage::Corner { index } => {
-                if let Some(corner) = state.parts.corners.get_mut(usize::from(index)).and_then(Option::as_mut) {
-                    corner.pair = scene.beneath(corner.pair.b);
-                    scene.note(corner);
-                    return Stage::Corner { index: index + 1 };
-                }
-                Stage::Edge { index: 0, step: 0 }
-            }
-            Stage::Edge { index, step } => self.edge(scene, tool, state, (index, step)),
             Stage::Done => Stage::Done,
         }
     }
@@ -201,14 +254,14 @@ impl Location {
         Stage::Settle { round: 0 }
     }
 
-    fn part(&mut self, scene: &mut Scene, tool: &Tool, state: &mut ToolWitness, finds_depth: bool) {
+    fn part(&mut self, scene: &mut Scene, tool: &Tool, state: &mut ToolWitness, is_query: bool) {
         let body = scene.body;
         self.distance = scene.distance(&state.pair);
         let is_apart = self.distance > TOUCHING * body.size() && (scene.is_global(&state.pair) || !scene.has_inside());
         if !is_apart {
             (self.status, self.distance) = (ToolStatus::Inside, -self.distance);
             if let Core::Body(core) = *tool.core()
-                && finds_depth
+                && is_query
                 && common_normal::is_smooth(body)
                 && common_normal::is_smooth(core)
                 && let Some((at, depth)) = common_normal::locate(body, core, scene.placement, &mut scene.evaluations)
@@ -216,40 +269,53 @@ impl Location {
                 (state.pair, self.distance, state.is_inside) = (at, -depth, true);
             }
         }
-        let a = state.pair.a;
-        state.parts.corners =
-            tool.corners().map(|corner| corner.map(|b| Part::new(Pair { a, b, halvings: 0 }, b.point(), Vec3::ZERO)));
-        state.parts.count = [state.parts.corners.iter().flatten().count() as u8, 0];
+        let least = scene.distance(&state.pair);
+        for part in state.parts.iter_mut().flatten() {
+            part.rests_for = rest(part.distance, tool, least);
+        }
+    }
+
+    /// Makes the nearest of pair, corners and edges the pair, and searches what else there may be.
+    fn compare(&mut self, scene: &Scene, state: &mut ToolWitness) -> Stage {
+        if self.is_proved {
+            return Stage::Part;
+        }
+        let mut least = scene.distance(&state.pair) - NEARER * scene.body.size();
+        for part in state.parts.iter().flatten() {
+            if part.distance < least {
+                (least, self.is_at_rest) = (part.distance, false);
+                state.pair = part.pair;
+            }
+        }
+        Stage::Search
     }
 
     /// A step of the closest pair of the body and an edge, from that of the core.
     fn edge(&mut self, scene: &mut Scene, tool: &Tool, state: &mut ToolWitness, (index, step): (u8, u8)) -> Stage {
         let slot = usize::from(index);
         let Some((middle, half)) = tool.edges().nth(slot).filter(|_| slot < state.parts.edges.len()) else {
-            let least = scene.distance(&state.pair);
-            for part in state.parts.iter_mut().flatten() {
-                part.rests_for = rest(part.distance, tool, least);
-            }
-            return Stage::Done;
+            return self.compare(scene, state);
         };
         let edge = Region::Solid { middle, half };
         let mut pair = match &state.parts.edges[slot] {
             Some(part) if step > 0 => part.pair,
             _ => Pair::facing(state.pair.a, &edge, scene.placement),
         };
-        if step < ROUNDS {
+        let before = scene.distance(&pair);
+        let is_settled = if step < ROUNDS {
             pair = Pair::facing(scene.beneath(pair.b).a, &edge, scene.placement);
+            step > 0 && scene.distance(&pair) >= before - NEARER * scene.body.size()
         } else {
-            scene.tick_on(&edge, &mut pair, [false; 2]);
-        }
+            scene.tick_on(&edge, &mut pair, [false; 2]).0 == Moved::AtRest
+        };
         let mut part = Part::new(pair, middle, half);
         scene.note(&mut part);
         state.parts.edges[slot] = Some(part);
         state.parts.count[1] = index + 1;
-        if step + 1 < ROUNDS + MAX_STALLS {
-            Stage::Edge { index, step: step + 1 }
-        } else {
-            Stage::Edge { index: index + 1, step: 0 }
+        match (is_settled, step + 1) {
+            (true, ..=ROUNDS) => Stage::Edge { index, step: ROUNDS },
+            (false, next) if next < ROUNDS + MAX_STALLS => Stage::Edge { index, step: next },
+            _ => Stage::Edge { index: index + 1, step: 0 },
         }
     }
 }

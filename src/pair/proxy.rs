@@ -33,7 +33,7 @@ pub enum ProxyError {
     Pose,
     /// Tool and body intersect.
     Intersects,
-    /// The closest pair is not known: the location was stopped short, or the tracker lost it.
+    /// The closest pair is not known: it is not located yet, the location was stopped short, or the tracker lost it.
     Lost,
 }
 
@@ -55,8 +55,8 @@ pub struct Proxy {
 /// The stages of a proxy. Only the one that holds gives a wrench of its own.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum ProxyStage {
-    /// Finds the contacts at a pose that the hand has had, a step a tick.
-    Locating(Location),
+    /// Finds the contacts at a pose that the hand has had, some steps a tick; and why they were not known before.
+    Locating(Location, ProxyError),
     /// Follows them from there to the hand.
     Approaching,
     /// Holds the drawn tool outside of the body.
@@ -124,7 +124,8 @@ impl Proxy {
     }
 
     /// As [`Self::tick`], but contact that was given up is located again once the wrench has faded, and the work of that
-    /// is spread over ticks too: one cold query of a point or one step of a pair in each.
+    /// is spread over ticks too: a cold query of a point in each, or steps of a pair, beside a body that is not convex
+    /// some `cells` evaluations of them. It ends within some hundred ticks.
     pub fn tick_located(
         &mut self,
         body: &Body,
@@ -134,20 +135,21 @@ impl Proxy {
         cells: u16,
     ) -> Wrench {
         match &mut self.stage {
-            ProxyStage::GivenUp(_) if self.share <= 0.0 || self.wrench == Wrench::default() => {
+            &mut ProxyStage::GivenUp(error) if self.share <= 0.0 || self.wrench == Wrench::default() => {
                 if let Some(placement) = placement_of(hand).filter(|_| tool.is_thick()) {
-                    *self =
-                        Self::with(ToolWitness::unlocated(&placement), *hand, ProxyStage::Locating(Location::START));
+                    let stage = ProxyStage::Locating(Location::START, error);
+                    *self = Self::with(ToolWitness::unlocated(&placement), *hand, stage);
                 }
                 Wrench::default()
             }
-            ProxyStage::Locating(location) => {
+            ProxyStage::Locating(location, _) => {
                 let before = location.evaluations();
-                location.step(body, tool, &mut self.state, false);
+                location.tick(body, tool, &mut self.state, cells);
                 self.evaluations = location.evaluations() - before;
                 if location.is_done() {
                     self.stage = match location.closest(&self.state, tool).status {
-                        ToolStatus::AtRest => ProxyStage::Approaching,
+                        // Short of its end the nearest found is held, and the audit goes on.
+                        ToolStatus::AtRest | ToolStatus::StepLimit => ProxyStage::Approaching,
                         ToolStatus::Inside => ProxyStage::GivenUp(ProxyError::Intersects),
                         _ => ProxyStage::GivenUp(ProxyError::Lost),
                     };
@@ -186,8 +188,10 @@ impl Proxy {
         let placement = placement_of(&self.pose).ok_or(ProxyError::Pose)?;
         let found = body.step_tool_with(tool, &mut self.state, &placement, cells, true);
         (self.distance, self.evaluations) = (found.distance, found.evaluations);
-        if !matches!(found.status, ToolStatus::Following | ToolStatus::AtRest) {
-            return Err(ProxyError::Lost);
+        match found.status {
+            ToolStatus::Following | ToolStatus::AtRest => {}
+            ToolStatus::Inside => return Err(ProxyError::Intersects),
+            _ => return Err(ProxyError::Lost),
         }
         if is_there && found.distance >= 0.0 {
             self.stage = ProxyStage::Holding;
@@ -256,17 +260,23 @@ impl Proxy {
         self.evaluations
     }
 
-    /// Why contact was given up, if it was.
+    /// Why there is no contact: it was given up, is not located (again) yet, or the tool lies in the body.
     pub const fn given_up(&self) -> Option<ProxyError> {
         match self.stage {
-            ProxyStage::GivenUp(error) => Some(error),
-            _ => None,
+            ProxyStage::GivenUp(error) | ProxyStage::Locating(_, error) => Some(error),
+            ProxyStage::Approaching if self.distance < 0.0 => Some(ProxyError::Intersects),
+            ProxyStage::Approaching | ProxyStage::Holding => None,
         }
     }
 
     /// Whether all contacts are known, and the drawn tool is held outside.
     pub const fn is_holding(&self) -> bool {
         matches!(self.stage, ProxyStage::Holding)
+    }
+
+    /// Whether all contacts are known. A tool that lies in the body then is not held before it has been outside.
+    pub const fn is_located(&self) -> bool {
+        matches!(self.stage, ProxyStage::Approaching | ProxyStage::Holding)
     }
 
     /// From the drawn tool to the hand's, metres: zero unless a contact holds the one.

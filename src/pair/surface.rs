@@ -22,9 +22,12 @@ const MAX_TURN_RAD_PER_S: f32 = 40.0;
 /// an inertial sensor. The drawn tool ([`Proxy`]) has the hand's orientation and lies where no contact is closed; the
 /// loop's wall pulls the probe to it, with its stiffness, damping, limits and slew.
 ///
-/// There is no force before the first orientation, until all contacts are located (some 30 to 200 ticks), and while the
-/// hand's tool is in the body. An orientation that is older than 20 ms, no rotation, or 40 rad/s from the one before
-/// ends contact as an implausible one does ([`crate::servo::ContactLimits`]): the force fades, the contacts are located again.
+/// There is no force before the first orientation, until all contacts are located, and while the hand's tool is in the
+/// body then: keep it outside until [`HeldTool::is_located`]. A tool that goes in before passes in without a force, and there
+/// is none until it was out; [`HeldTool::given_up`] says so. A location ends within 900 ticks everywhere. Measured are 14
+/// (ball), 33 (capsule) and 110 (box) beside convex bodies, and up to 450 where many places are as near.
+///
+/// An orientation that is older than 20 ms, no rotation, or 40 rad/s from the one before ends contact as an implausible one does ([`crate::servo::ContactLimits`]): the force fades, the contacts are located again.
 ///
 /// The work of a tick is bounded, but large: on the capped box a ball takes at most 8,909 instructions of a Cortex-M4F, a
 /// capsule 16,859 and a box 25,254 (`palpate budgets --tool MODEL`; in single ticks, in which the face changes). Count it
@@ -150,7 +153,12 @@ impl HeldTool {
         self.orientation
     }
 
-    /// Why there is no contact with the body, if it was given up or the tool does not lie outside.
+    /// Whether all contacts are known. Until then there is no force, and the tool can pass into the body.
+    pub const fn is_located(&self) -> bool {
+        self.proxy.is_located()
+    }
+
+    /// Why there is no contact with the body: it was given up, is not located (again) yet, or the tool lies in it.
     pub const fn given_up(&self) -> Option<ProxyError> {
         self.proxy.given_up()
     }

@@ -2,6 +2,7 @@
 
 use super::cells::{Cells, Visit};
 use super::common_normal;
+use super::location::MAX_STEPS;
 use super::parts::{Part, Parts, rest};
 use super::scene::{NEARER, Scene, TOUCHING};
 use super::step::{Foot, Moved, Pair};
@@ -66,8 +67,9 @@ pub struct ToolWitness {
     /// Metres of the core's motion after which a corner of the face may be the nearest, or in contact.
     vertices_rest_for: f32,
     pub(super) rivals: [Option<Pair>; RIVALS],
-    /// The descent from a cell of the audit.
+    /// The descent from a cell of the audit, and its steps so far.
     pub(super) explorer: Option<Pair>,
+    explored: u8,
     pub(super) cells: Cells,
     placement: Placement,
     /// Whether the pair is that of the common normal.
@@ -166,6 +168,7 @@ impl ToolWitness {
             vertices_rest_for: 0.0,
             rivals: [None; RIVALS],
             explorer: None,
+            explored: 0,
             cells: Cells::START,
             placement: *placement,
             is_inside: false,
@@ -259,16 +262,18 @@ impl Scene<'_> {
         let bound = self.distance(&state.pair) + LOOKAHEAD * self.body.size();
         for _ in 0..cells {
             if let Some(mut explorer) = state.explorer {
-                let moved = self.tick(&mut explorer);
-                state.explorer = (moved != Moved::AtRest).then_some(explorer);
-                if moved == Moved::AtRest && self.distance(&explorer) < bound {
+                // One that is handed to and fro between two faces never rests.
+                let is_done = self.tick(&mut explorer) == Moved::AtRest || state.explored >= MAX_STEPS;
+                state.explored += 1;
+                state.explorer = (!is_done).then_some(explorer);
+                if is_done && self.distance(&explorer) < bound {
                     self.keep(&state.pair, &mut state.rivals, explorer);
                 }
                 continue;
             }
             self.evaluations += 1;
             if let Visit::Start(start) = state.cells.visit(self.body, &self.region, self.placement, bound) {
-                state.explorer = (!state.knows_cell_of(&start)).then_some(start);
+                (state.explorer, state.explored) = ((!state.knows_cell_of(&start)).then_some(start), 0);
             }
         }
     }

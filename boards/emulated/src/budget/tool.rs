@@ -40,7 +40,7 @@ pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
 
 fn press(counter: &mut InstructionCounter, body: &Body<'_>, name: &str, core: Core<'_>) -> Result<(), &'static str> {
     let tool = Tool::new(core, RADIUS).map_err(|_| "the tool was refused")?;
-    let (mut locating, mut holding) = (Tally::new(), Tally::new());
+    let (mut locating, mut holding, mut most) = (Tally::new(), Tally::new(), 0);
     for face in body.faces() {
         let surface = face.patch.evaluate(0.5, 0.5);
         let outward = surface.tangent_u.cross(surface.tangent_v).normalize_or_zero() * face.patch.orientation();
@@ -56,6 +56,7 @@ fn press(counter: &mut InstructionCounter, body: &Body<'_>, name: &str, core: Co
             walk.counts(start);
         }
         servo.note(&mut state, Event::Homed);
+        let mut located = None;
         for index in 0..TICKS {
             let time = index as f32 / TICKS as f32;
             // In by the reach and twice the radius, and out again.
@@ -68,14 +69,17 @@ fn press(counter: &mut InstructionCounter, body: &Body<'_>, name: &str, core: Co
             let input = black_box(Input::Sensors { counts: walk.counts(position), enable: true });
             let holds = state.witness().proxy().is_holding();
             let (_, instructions) = counter.count(|| black_box(servo.tick(&mut state, input)));
+            located = located.or(state.witness().is_located().then_some(index + 1));
             if holds { &mut holding } else { &mut locating }.add(instructions);
         }
+        most = most.max(located.ok_or("a tool was never located")?);
         if state.fault().is_some() {
             return Err("the servo found a fault on its path");
         }
     }
     locating.print_as(name, "locating");
     holding.print_as(name, "held");
+    println!("\"{name}, ticks until located\" = {most}");
     println!("\"{name}, bytes of state\" = {}", size_of::<palpate::pair::HeldTool>());
     Ok(())
 }

@@ -30,7 +30,7 @@ fn folder() -> Option<PathBuf> {
 }
 
 /// The tables of a model with their locator, and the middle of its frame.
-fn bake(file: &Path) -> (BakedBody, DVec3) {
+pub fn bake(file: &Path) -> (BakedBody, DVec3) {
     let model = Model::read(file).expect("a model");
     let baked = BakedBody::new(&model, "golden").expect("a body");
     let options = baked.locator_options();

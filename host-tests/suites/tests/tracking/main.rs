@@ -5,6 +5,7 @@ mod certificates;
 mod golden_pairs;
 mod guarantee;
 mod limits;
+mod located;
 mod pairs;
 mod proxy;
 mod sweep;

@@ -31,6 +31,8 @@ pub struct Summary {
     pub features: [usize; 3],
     /// Number of times that contact started.
     pub touches: usize,
+    /// Ticks until the contacts were located, if they were.
+    pub located: Option<usize>,
     /// Seconds in contact.
     pub contact_time: f64,
     /// Largest force, N.
@@ -71,6 +73,7 @@ impl Summary {
             touches: changes(|before, after| {
                 after.contact == Contact::Touching as u8 && before.contact != Contact::Touching as u8
             }),
+            located: reports().position(|report| report.contact != Contact::Behind as u8).map(|tick| tick + 1),
             contact_time: reports().filter(touching).count() as f64 / trace.rate,
             largest_force: reports().map(|report| norm(report.force)).fold(0.0, f64::max),
             largest_penetration: reports().filter(touching).map(|report| -f64::from(report.gap)).fold(0.0, f64::max),
@@ -106,6 +109,7 @@ impl Summary {
                 format!("{faces} faces, {edges} edges, {vertices} vertices in {} changes", self.feature_changes),
             ),
             ("mode changes", self.mode_changes.to_string()),
+            ("located", self.located.map_or("never".to_owned(), |ticks| format!("after {ticks} ticks"))),
             ("contact time", format!("{:.3} s in {} touches", self.contact_time, self.touches)),
             ("largest force", format!("{:.2} N", self.largest_force)),
             ("largest penetration", format!("{:.2} mm", self.largest_penetration * 1e3)),
