@@ -18,7 +18,7 @@ pub(super) const MAX_STEPS: u8 = 48;
 const MAX_STALLS: u8 = 12;
 /// Rounds of projections in turn before a descent.
 const ROUNDS: u8 = 3;
-/// Maximum ticks of a loop's search: what is left is the audit's.
+/// Maximum ticks of a loop's search; the audit does the rest.
 const MAX_SEARCH: u16 = 256;
 /// Evaluations in a tick of a loop beside a convex body, and at least, after which no other step follows.
 const EVALUATIONS: u16 = 1;

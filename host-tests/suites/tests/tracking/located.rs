@@ -3,6 +3,7 @@
 
 use crate::golden_pairs::bake;
 use glam::DVec3;
+use palpate::math::vec3;
 use palpate::pair::{Core, Tool, ToolSurface};
 use palpate::servo::{Settings, Surface as _, Tracked as _};
 use palpate::track::{Contact, Controller, Probe};
@@ -89,4 +90,30 @@ fn the_location_ends_everywhere_with_the_closest_pair() {
             println!("{name}, {tool_name}: within {ticks} ticks, up to {worst:.1e} m above the lattice's least");
         }
     }
+}
+
+/// The audit of a box over the teapot: some of its descents are handed to and fro between two faces.
+#[test]
+fn the_audit_goes_on_where_a_descent_never_rests() {
+    let (baked, _) = bake(&repository("host-tests/models/teapot.toml"));
+    let body = baked.to_body().expect("its tables fit");
+    let tool = Tool::new(Core::Box { half: [0.009, 0.006, 0.003] }, RADIUS_M as f32).expect("a tool");
+    let surface = ToolSurface::new(&body, tool, &Settings { rate_hz: 4_000.0, ..Settings::DEFAULT }).expect("thick");
+    let mut held = surface.rest();
+    let (mut cell, mut since, mut longest) = (String::new(), 0, 0);
+    for tick in 0..1_500 {
+        surface.orient(&mut held, [0.0, 0.0, 0.0, 1.0]);
+        let at = vec3(0.002_552_312, -0.019_418_41, 0.038_400_82);
+        surface.follow(&Controller::SecondOrder, &mut held, Probe::at(at), 2.5e-4);
+        if held.proxy().is_holding() {
+            let state = format!("{:?}", held.proxy().tracker());
+            let now = state.split("cells: ").nth(1).and_then(|rest| rest.split('}').next()).expect("its cell");
+            if now != cell {
+                (cell, since) = (now.to_owned(), tick);
+            }
+            longest = longest.max(tick - since);
+        }
+    }
+    println!("at most {longest} ticks on a cell");
+    assert!(!cell.is_empty() && longest < 20, "{longest} ticks on a cell");
 }
