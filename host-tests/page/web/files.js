@@ -1,5 +1,6 @@
 // Files that a reader opens or drops: a body, a device, a recording, or a table of places.
 
+import { Vector3 } from "three";
 import { read } from "bodies";
 import { along, open, places } from "recording";
 import { number } from "choices";
@@ -37,6 +38,7 @@ export async function openRecording(page, text, name) {
   let found;
   const opened = await page.take((async () => (found = await open(text, name)).body)());
   if (opened) page.player.open(found);
+  if (opened) page.room.look(new Vector3(...page.player.front));
   return opened;
 }
 

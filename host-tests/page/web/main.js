@@ -25,6 +25,7 @@ function wire() {
     .forEach((button) => button.addEventListener("click", () => page.turnTo(button.dataset.tab)));
   by("open").addEventListener("click", () => by("file").click());
   by("file").addEventListener("change", ({ target: { files } }) => files[0] && openFile(page, files[0]));
+  by("look").addEventListener("click", () => page.room.look(page.room.from));
   by("verify").addEventListener("click", verify);
   by("table1").addEventListener("click", () => page.take(shipped("table1")));
   by("leave").addEventListener("click", () => page.leave());

@@ -14,6 +14,7 @@ import {
   Mesh,
   MeshBasicMaterial,
   MeshStandardMaterial,
+  Raycaster,
   SphereGeometry,
   TorusGeometry,
   Vector3,
@@ -33,6 +34,9 @@ const UP = new Vector3(0, 1, 0);
 const REACH = 0.42,
   OF_A_NEWTON = 0.085;
 const RAYS = 25;
+/** How long the pen is, and how much more than aside it may lean away from the surface. */
+const LONG = 0.46,
+  SHARES = [0.42, 0.8, 1.5, 3, 10];
 
 export class Marks {
   constructor(room) {
@@ -85,6 +89,7 @@ export class Marks {
     this.local.add(this.rim, this.sheet);
     this.group.add(this.local);
     this.lean = new Vector3(0, 0, 1);
+    this.ray = new Raycaster();
     this.shown = {};
   }
 
@@ -119,9 +124,7 @@ export class Marks {
     const normal = new Vector3(...view.normal),
       touching = view.contact === TOUCHING;
     this.stylus.position.copy(probe);
-    // The pen leans towards the reader, and away from the surface.
-    const wanted = new Vector3(0.85, 0.42, 0.42).applyQuaternion(room.camera.quaternion).addScaledVector(normal, 0.42);
-    this.lean.lerp(wanted.normalize(), 0.12).normalize();
+    this.lean.lerp(this.leaning(probe, normal), 0.12).normalize();
     this.stylus.quaternion.setFromUnitVectors(UP, this.lean);
     this.ghost.position.copy(probe);
     this.witness.position.copy(point);
@@ -138,6 +141,29 @@ export class Marks {
       newtons = force.length();
     aim(this.force, touching ? point : probe, force, Math.min(newtons * OF_A_NEWTON, 0.9));
     this.sheet.visible = withRegion;
+  }
+
+  /** Which way the pen leans: to the reader's right and away from the surface, and the more away the less room there is. */
+  leaning(probe, normal) {
+    const aside = new Vector3(0.85, 0.42, 0.42).applyQuaternion(this.room.camera.quaternion);
+    const away = (share) => aside.clone().addScaledVector(normal, share).normalize();
+    // Looking for room takes time: not in each frame.
+    this.frames = (this.frames ?? 0) + 1;
+    const isFree = (share) => this.isOutside(probe, away(share));
+    if (this.frames % 8 === 1) this.share = SHARES.find(isFree) ?? SHARES.at(-1);
+    return away(this.share);
+  }
+
+  /** Whether a pen at the probe that leans along a direction leaves the body by the face in contact, and stays outside. */
+  isOutside(probe, direction) {
+    this.ray.set(probe, direction);
+    this.ray.far = LONG;
+    const hits = this.ray.intersectObjects(this.room.faces, false);
+    if (!hits.length) return true;
+    const [first] = hits,
+      // Where two faces meet, both are hit.
+      isLast = hits.at(-1).distance - first.distance < 1e-3;
+    return isLast && first.distance < LONG / 3 && first.object === (this.room.lit ?? first.object);
   }
 
   /** Lights an edge, or none. */

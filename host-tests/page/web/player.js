@@ -1,6 +1,7 @@
 // A recording or a table that is shown: its views in time, and the bar to move in it.
 
 import { pace } from "choices";
+import { TOUCHING } from "firmware";
 import { along } from "recording";
 
 const by = (id) => document.getElementById(id);
@@ -32,6 +33,15 @@ export class Player {
   /** Renders a table again, with other settings. */
   again(device, rate) {
     if (this.recording?.places) this.recording = along(this.recording, device, rate);
+  }
+
+  /** From where its surface looks at the stylus, most of all. */
+  get front() {
+    const sum = [0, 0, 0];
+    for (const { contact, normal } of this.recording.views)
+      if (contact === TOUCHING) normal.forEach((part, axis) => (sum[axis] += part));
+    const length = Math.hypot(...sum) || 1;
+    return sum.map((part) => part / length);
   }
 
   /** Stands at a time, s. */

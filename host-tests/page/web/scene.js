@@ -42,6 +42,8 @@ const MOUSE_PAN = 2,
 /** Height and width of what is seen of the room, in its distance. */
 const HIGH = 0.5,
   WIDE = 0.66;
+/** A surface is seen well from a direction whose cosine with its normal is this. */
+const SEEN = 0.3;
 
 export class Room {
   constructor(canvas) {
@@ -199,13 +201,25 @@ export class Room {
     this.front = out.length() > 0.2 * count ? out.normalize() : new Vector3(0, 0, 1);
     const height = (high[2] - low[2]) / 2 / size;
     this.floor.position.z = -height - 0.012;
-    this.floor.visible = this.front.z > -0.2;
     this.sun.position.set(1.5, -1.0, 2.6);
-    const from = new Vector3(0.95, -1.45, 1.0).normalize();
-    if (this.front.z < -0.2) from.z *= -1;
     // As near as the whole of it and the stylus fit, by the sphere around it.
     const radius = Math.hypot(...low.map((least, axis) => high[axis] - least)) / 2 / size;
-    this.camera.position.copy(from.multiplyScalar(1.3 + 2.25 * radius));
+    this.far = 1.3 + 2.25 * radius;
+    this.look(this.front);
+  }
+
+  /** Looks from a corner that sees what faces a direction; the one in front on the right where it does. */
+  look(front) {
+    let from = new Vector3();
+    for (const x of [1, -1])
+      for (const y of [1, -1])
+        for (const z of [1, -1]) {
+          const corner = new Vector3(0.95 * x, -1.45 * y, z).normalize();
+          if (Math.min(corner.dot(front), SEEN) > Math.min(from.dot(front), SEEN) + 1e-6 || !from.lengthSq()) from = corner;
+        }
+    this.from = front;
+    this.floor.visible = from.z > 0;
+    this.camera.position.copy(from.multiplyScalar(this.far));
     this.orbit.target.set(0, 0, -0.02);
     this.orbit.update();
   }
@@ -255,6 +269,7 @@ export class Room {
     const plain = new Color(PORCELAIN),
       lit = new Color(LIT),
       active = face === null ? null : this.bodies[body].faces[face];
+    this.lit = active;
     for (const mesh of this.faces) mesh.material.color.lerp(mesh === active ? lit : plain, 0.25);
   }
 

@@ -202,28 +202,29 @@ impl Page {
         self.ask(expression)?.as_f64().with_context(|| format!("{expression} is no number"))
     }
 
-    /// A picture of the page, a small file (WebP) of a size that no browser's own bars take part of. Frames are drawn
-    /// from then on.
-    pub fn picture(&self) -> anyhow::Result<Vec<u8>> {
-        self.sharpen(PICTURE)?;
-        let picture = self.photograph()?;
+    /// A picture of an element of the page in a window of this size, a small file (WebP). Frames are drawn from then on.
+    pub fn picture(&self, size: [u32; 2], of: &str) -> anyhow::Result<Vec<u8>> {
+        self.ask("palpate.draw(true)")?;
+        self.set_size(size, 1.5)?;
+        // Only the window itself tells a page that its pixels are others, and that later.
+        self.ask("void dispatchEvent(new Event('resize'))")?;
+        self.ask("palpate.drawn(3)")?;
+        let clip = self.ask(&format!(
+            "(({{ x, y, width, height }}) => ({{ x, y, width, height, scale: 1 }}))\
+             (document.querySelector('{of}').getBoundingClientRect())"
+        ))?;
+        let picture = self.photographed(&json!({ "format": "webp", "quality": 85, "clip": clip }))?;
         self.set_size(PICTURE, 0.25)?;
         Ok(picture)
     }
 
-    /// Draws at every pixel of a window of this size.
-    pub fn sharpen(&self, size: [u32; 2]) -> anyhow::Result<()> {
-        self.set_size(size, 1.0)?;
-        self.ask("palpate.draw(true)")?;
-        // Only the window itself tells a page that its pixels are others, and that later.
-        self.ask("void dispatchEvent(new Event('resize'))")?;
-        self.ask("palpate.drawn(3)")?;
-        Ok(())
-    }
-
     /// What the window shows, as a small file (WebP).
     pub fn photograph(&self) -> anyhow::Result<Vec<u8>> {
-        let taken = self.call("Page.captureScreenshot", &json!({ "format": "webp", "quality": 85 }))?;
+        self.photographed(&json!({ "format": "webp", "quality": 85 }))
+    }
+
+    fn photographed(&self, how: &Value) -> anyhow::Result<Vec<u8>> {
+        let taken = self.call("Page.captureScreenshot", how)?;
         Ok(STANDARD.decode(taken["data"].as_str().context("no picture")?)?)
     }
 

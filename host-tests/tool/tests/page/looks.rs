@@ -111,8 +111,10 @@ fn no_words_of_the_page_are_covered_cut_small_or_pale() -> anyhow::Result<()> {
             all.extend(faults_of_page(&page, &format!("{width} × {height}, letters of {letters} px, {scheme}"))?);
         }
         page.ask("palpate.take('capped_box')")?;
-        photograph_page(&page, width)?;
     }
+    let sizes = serde_json::json!({ "fontSizes": { "standard": 16, "fixed": 16 } });
+    page.call("Page.setFontSizes", &sizes)?;
+    photograph_page(&page)?;
     ensure!(all.is_empty(), "{} faults:\n{}", all.len(), all.join("\n"));
     Ok(())
 }
@@ -192,17 +194,24 @@ fn faults_of_page(page: &Page, at: &str) -> anyhow::Result<Vec<String>> {
     Ok(all)
 }
 
-/// The page's pictures in the documentation: which panel, how wide.
-fn photograph_page(page: &Page, width: u32) -> anyhow::Result<()> {
-    let wanted = [(390, "feel", "page-phone"), (1280, "knob", "page-knob")];
-    let wanted = wanted.into_iter().find(|(at, ..)| *at == width);
-    if let (Some((_, panel, name)), Some(_)) = (wanted, std::env::var_os("PALPATE_WRITE")) {
-        page.prefer(if panel == "knob" { "light" } else { "dark" })?;
-        page.ask(&format!("palpate.panel('{panel}')"))?;
-        page.ask(if panel == "knob" { "palpate.turnKnob(0.5, 4000)" } else { "palpate.show(18.4)" })?;
-        page.sharpen([width, HEIGHT])?;
+/// The page's pictures in the documentation, on a phone and of the knob.
+fn photograph_page(page: &Page) -> anyhow::Result<()> {
+    if std::env::var_os("PALPATE_WRITE").is_none() {
+        return Ok(());
+    }
+    for (name, scheme, pointer, shown, size) in [
+        ("page-phone", "dark", "coarse", "palpate.panel('feel'), palpate.show(18.4)", [390, 844]),
+        ("page-knob", "light", "fine", "palpate.panel('knob').then(() => palpate.turnKnob(0.5, 4000))", [900, 600]),
+    ] {
+        let features = [("prefers-color-scheme", scheme), ("pointer", pointer)];
+        let features = features.map(|(name, value)| serde_json::json!({ "name": name, "value": value }));
+        page.call("Emulation.setEmulatedMedia", &serde_json::json!({ "features": features }))?;
+        let touch = serde_json::json!({ "enabled": pointer == "coarse", "maxTouchPoints": 5 });
+        page.call("Emulation.setTouchEmulationEnabled", &touch)?;
+        page.ask(shown)?;
+        page.ask("palpate.draw(true)")?;
         page.ask("palpate.drawn(30)")?;
-        fs::write(repository(&format!("docs/figures/{name}.webp")), page.photograph()?)?;
+        fs::write(repository(&format!("docs/figures/{name}.webp")), page.picture(size, "body")?)?;
         page.ask("palpate.draw(false)")?;
     }
     Ok(())
@@ -212,7 +221,7 @@ fn photograph_page(page: &Page, width: u32) -> anyhow::Result<()> {
 const PICTURES: [(&str, u32, &str, &str); 3] = [
     ("demo.html", 1280, "light", "report-demo"),
     ("knob.html", 390, "light", "report-knob"),
-    ("feel/report.html", 1280, "dark", "report-feel"),
+    ("feel/report.html", 390, "dark", "report-feel"),
 ];
 
 fn photograph(page: &Page, report: &str, width: u32, scheme: &str) -> anyhow::Result<()> {

@@ -5,10 +5,20 @@ use crate::tool::repository;
 use anyhow::ensure;
 use std::fs;
 
-/// The pictures: what is done before each.
-const PICTURES: [(&str, &str); 2] = [
-    ("page", "palpate.take('capped_box').then(() => palpate.panel('feel')).then(() => palpate.show(18.4))"),
-    ("page-basin", "palpate.take('table1').then(() => palpate.panel('basin')).then(() => palpate.settled())"),
+/// The pictures: what is done before each, the window, and what of it is shown: legible on a phone, too.
+const PICTURES: [(&str, &str, [u32; 2], &str); 2] = [
+    (
+        "page",
+        "palpate.take('capped_box').then(() => palpate.panel('feel')).then(() => palpate.show(18.4))",
+        [900, 620],
+        "body",
+    ),
+    (
+        "page-basin",
+        "palpate.take('table1').then(() => palpate.panel('basin')).then(() => palpate.settled())",
+        [1280, 660],
+        "aside",
+    ),
 ];
 
 /// How much of the picture is not empty.
@@ -24,11 +34,11 @@ const FILLED: &str = "(() => {
 fn a_reader_sees_a_body_and_a_basin() -> anyhow::Result<()> {
     let page = Page::open()?;
     page.prefer("dark")?;
-    for (name, before) in PICTURES {
+    for (name, before, size, of) in PICTURES {
         page.ask(before)?;
         // In each frame lights and stylus go an eighth of their way at least: after so many, all but a two-hundredth.
         page.ask("palpate.drawn(40)")?;
-        let picture = page.picture()?;
+        let picture = page.picture(size, of)?;
         // The room is empty where nothing stands.
         let filled = page.number(FILLED)?;
         ensure!((0.05..0.9).contains(&filled), "{name}: {filled} of the picture is filled");

@@ -121,7 +121,7 @@ fn a_scenes_bodies_are_seen_where_they_are_and_its_gap_is_the_hosts() -> anyhow:
         let at = views.iter().position(|view| Some(view) == views.iter().filter(pressed).nth(count / 2));
         page.ask(&format!("palpate.seek({})", at.unwrap_or(0) as f64 * STRIDE as f64 / RATE))?;
         page.ask("palpate.drawn(40)")?;
-        fs::write(repository("docs/figures/page-scene.webp"), page.picture()?)?;
+        fs::write(repository("docs/figures/page-scene.webp"), page.picture([900, 560], "main")?)?;
     }
     ensure!(page.errors().is_empty(), "on the console: {:?}", page.errors());
     Ok(())

@@ -76,3 +76,69 @@ fn mouse(page: &Page, event: &str, [x, y]: [f64; 2]) -> anyhow::Result<()> {
     page.call("Input.dispatchMouseEvent", &button)?;
     Ok(())
 }
+
+/// Presses the stylus into places of each face that the reader sees; those at which the pen's shaft is in the body, or
+/// leaves it through another face.
+const BURIED: &str = "(async () => {
+    const { room, marks, pointer } = palpate.page, size = palpate.about().size, found = [];
+    let pressed = 0;
+    room.draw(false);
+    for (const face of room.faces) for (const share of [0.5, 0.06, 0.93]) {
+        const { position, normal } = face.geometry.attributes, vertex = Math.floor(share * position.count);
+        const at = room.camera.position.clone().fromBufferAttribute(position, vertex),
+            out = at.clone().fromBufferAttribute(normal, vertex);
+        at.applyMatrix4(face.matrixWorld);
+        if (out.dot(room.camera.position.clone().sub(at).normalize()) < 0.1) continue;
+        for (const height of [0.2, -0.05]) palpate.hold(room.unplace(at.clone().addScaledVector(out, height)), 2000);
+        for (let frame = 0; frame < 60; frame += 1) palpate.page.picture();
+        const { contact, feature } = palpate.state();
+        if (contact !== 2 || feature >> 14) continue;
+        pressed += 1;
+        pointer.ray.set(marks.stylus.position, marks.lean);
+        const [first] = pointer.ray.intersectObjects(room.faces, false);
+        if (first?.object !== room.faces[feature]) found.push([feature, share]);
+        for (const along of [0.25, 0.35, 0.45]) {
+            const place = marks.stylus.position.clone().addScaledVector(marks.lean, along);
+            pointer.ray.set(place, at.clone().set(0.123, 0.234, 0.965).normalize());
+            if (pointer.ray.intersectObjects(room.faces, false).length % 2) found.push([feature, share, along]);
+        }
+    }
+    return { pressed, found };
+})()";
+
+#[test]
+fn a_pen_pressed_into_any_face_in_view_is_drawn_outside() -> anyhow::Result<()> {
+    let page = Page::held_still()?;
+    for body in ["capped_box", "rounded_cylinder"] {
+        page.ask(&format!("palpate.take('{body}')"))?;
+        let state = page.ask(BURIED)?;
+        println!("{body}: {state}");
+        ensure!(state["pressed"].as_u64() > Some(2) && state["found"] == json!([]), "{body}: {state}");
+    }
+    Ok(())
+}
+
+#[test]
+fn the_first_view_of_each_patch_shows_the_side_that_is_touched() -> anyhow::Result<()> {
+    let page = Page::held_still()?;
+    let patches =
+        page.ask("JSON.parse(document.getElementById('given').textContent).bodies.map(({ name }) => name)")?;
+    let mut patches_seen = 0;
+    for name in patches.as_array().into_iter().flatten().filter_map(|name| name.as_str()) {
+        page.ask(&format!("palpate.take('{name}')"))?;
+        // Of the surface's normals, the share that faces the reader.
+        let share = page.number(
+            "(({ room, body }) => { let [seen, all] = [0, 0]; for (const { geometry, matrixWorld } of room.faces) { \
+             const { position, normal } = geometry.attributes, at = room.camera.position.clone(), out = at.clone(); \
+             for (let i = 0; i < position.count; i += 1) { at.fromBufferAttribute(position, i).applyMatrix4(matrixWorld); \
+             out.fromBufferAttribute(normal, i); all += 1; \
+             seen += out.dot(room.camera.position.clone().sub(at)) > 0 ? 1 : 0; } } \
+             return body.device.isPatch ? seen / all : 1; })(palpate.page)",
+        )?;
+        println!("{name}: {share:.2}");
+        patches_seen += usize::from(share < 1.0);
+        ensure!(share > 0.5, "{name}: the reader sees {share} of the side that is touched");
+    }
+    ensure!(patches_seen > 1, "no patches");
+    Ok(())
+}
