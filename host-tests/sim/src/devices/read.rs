@@ -22,6 +22,11 @@ use palpate::math::{Vec2, vec3};
 use std::{fs, path::Path};
 use thiserror::Error;
 
+/// More than any haptic device's motor gives at its joint, N·m.
+const MAX_JOINT_TORQUE: f64 = 100.0;
+/// Two turns either way: the smallest range in degrees is beyond.
+const MAX_ANGLE: f64 = 12.6;
+
 /// Why a device file is refused.
 #[derive(Debug, Error)]
 pub enum DeviceFileError {
@@ -88,9 +93,9 @@ impl OwnDevice {
     /// The first thing wrong with it.
     pub fn parse(text: &str, label: &str) -> Result<Self, DeviceFileError> {
         let file: DeviceFile = toml::from_str(text).map_err(|error| {
-            let line = error.span().map_or(0, |span| text[..span.start.min(text.len())].lines().count().max(1));
             let reason = error.message().lines().next().unwrap_or_default();
-            DeviceFileError::Schema { file: label.to_owned(), reason: format!("line {line}: {reason}") }
+            let place = place(text, error.span().map_or(0, |span| span.start), reason);
+            DeviceFileError::Schema { file: label.to_owned(), reason: format!("{place}: {reason}") }
         })?;
         Self::new(file, label)
     }
@@ -172,6 +177,63 @@ impl OwnDevice {
     }
 }
 
+/// Where the text is wrong. Of an entry of a mechanism the parser knows its section only: the entry is the one with the
+/// text that the message quotes, if there is one such.
+fn place(text: &str, start: usize, reason: &str) -> String {
+    let number = |at: usize| text[..at].matches('\n').count() + 1;
+    let quoted =
+        reason.split_once('"').and_then(|(_, rest)| rest.rsplit_once('"')).map(|(value, _)| format!("\"{value}\""));
+    if let Some(at) = quoted.and_then(|value| text.find(&value).filter(|at| text.rfind(&value) == Some(*at))) {
+        let entry = text[..at].lines().last().unwrap_or_default().split('=').next().unwrap_or_default().trim();
+        return format!("line {}: {entry}", number(at));
+    }
+    let (start, rest) = text.get(start..).map_or((0, text), |rest| (start, rest));
+    let section = rest.lines().next().unwrap_or_default().trim();
+    if section.starts_with('[') {
+        format!("the section {section} of line {}", number(start))
+    } else {
+        format!("line {}", number(start))
+    }
+}
+
+/// Refuses numbers that no haptic device has: those of another unit.
+fn check_units(file: &DeviceFile, refuse: &impl Fn(&str, &str) -> DeviceFileError) -> Result<(), DeviceFileError> {
+    let within = |entry: &str, number: f64, least: f64, most: f64, unit: &str| {
+        // A number that is none is refused elsewhere, by its own reason.
+        if number < least || number > most {
+            return Err(refuse(entry, &format!("{number} is no haptic device's: it is in {unit}, {least} to {most}")));
+        }
+        Ok(())
+    };
+    for (index, JointEntry { range, friction, motor, inertia, .. }) in file.joint.iter().enumerate() {
+        let entry = |name: &str| format!("joint {index}: {name}");
+        within(&entry("motor.torque_constant"), motor.torque_constant, 1e-4, 5.0, "N·m/A (36 mN·m/A are 0.036)")?;
+        within(&entry("motor.current_at_full"), motor.current_at_full, 1e-3, 200.0, "A")?;
+        let torque = (motor.torque_constant * motor.current_at_full * motor.ratio).abs();
+        if torque > MAX_JOINT_TORQUE {
+            let reason = format!(
+                "torque_constant times current_at_full times ratio is {torque:.1} N·m at the joint, above {MAX_JOINT_TORQUE} N·m: \
+                 they are in N·m/A and A"
+            );
+            return Err(refuse(&entry("motor"), &reason));
+        }
+        if *friction > torque && torque > 0.0 {
+            let reason = format!("{friction} N·m is more than its motor's {torque:.3} N·m at the joint: it is in N·m");
+            return Err(refuse(&entry("friction"), &reason));
+        }
+        for angle in range {
+            within(&entry("range"), *angle, -MAX_ANGLE, MAX_ANGLE, "radians")?;
+        }
+        within(&entry("inertia"), inertia.unwrap_or(0.0), 0.0, 1.0, "kg·m²")?;
+    }
+    within("limits.max_force", file.limits.max_force, f64::NEG_INFINITY, 500.0, "N")?;
+    within("limits.max_stiffness", file.limits.max_stiffness, 0.0, 1e6, "N/m")?;
+    if file.limits.max_stiffness > 0.0 && file.limits.max_stiffness < 10.0 {
+        return Err(refuse("limits.max_stiffness", "must be at least 10 N/m: it is in N/m, not in N/mm"));
+    }
+    Ok(())
+}
+
 /// Checks beyond the library's own.
 fn check(file: &DeviceFile, refuse: impl Fn(&str, &str) -> DeviceFileError) -> Result<(), DeviceFileError> {
     if file.name.is_empty() || !file.name.chars().all(|letter| letter.is_ascii_alphanumeric() || "-_.".contains(letter))
@@ -229,7 +291,7 @@ fn check(file: &DeviceFile, refuse: impl Fn(&str, &str) -> DeviceFileError) -> R
     if !positive(file.limits.max_probe_speed) {
         return Err(refuse("limits.max_probe_speed", "must be positive and finite"));
     }
-    Ok(())
+    check_units(file, &refuse)
 }
 
 fn three(numbers: [f64; 3]) -> [f32; 3] {

@@ -80,6 +80,16 @@ fn a_bad_file_is_refused_by_its_entry() {
         ("time_constant = 16.0", "time_constant = 0.0", "joint 0: motor.time_constant"),
         ("max_force = 5.0\n", "", "missing field `max_force`"),
         ("name = \"woodenhaptics-2016\"", "name = \"a b\"", "name: must be"),
+        ("second_link = ", "second_link = \"180 mm\" # ", "line 8: second_link: invalid type: string"),
+        ("end_masses = [", "end_masses = [0.1] # [", "the section [mechanism] of line 4: invalid length 1"),
+        ("max_joint_rate = ", "# ", "the section [limits] of line 12: missing field `max_joint_rate`"),
+        ("torque_constant = 0.0259", "torque_constant = 25.9", "joint 0: motor.torque_constant: 25.9 is no"),
+        ("current_at_full = 3.0", "current_at_full = 3000.0", "joint 0: motor.current_at_full: 3000 is no"),
+        ("torque_constant = 0.0259", "torque_constant = 4.9", "joint 0: motor: torque_constant times current_at_full"),
+        ("range = [-1.6, 1.6]", "range = [-92.0, 92.0]", "joint 0: range: -92 is no haptic device's: it is in radians"),
+        ("friction = ", "friction = 12", "joint 0: friction: 12"),
+        ("max_stiffness = ", "max_stiffness = 1.0 # ", "limits.max_stiffness: must be at least 10 N/m"),
+        ("max_force = 5.0", "max_force = 5000.0", "limits.max_force: 5000 is no"),
     ] {
         let spoilt = text().replacen(good, bad, 1);
         assert_ne!(spoilt, text(), "{good} is not in the file");

@@ -90,7 +90,7 @@ const NOTES: &[(&str, &str)] = &[
     ("max_joint_rate", "keep: rad/s, faster is a sensor fault"),
     ("max_force", "keep, a tenth of it for the first force: N"),
     ("max_stiffness", "measure: N/m, `palpate zwidth`, then the bench"),
-    ("max_damping", "measure: N·s/m, `palpate zwidth`, then the bench"),
+    ("max_damping", "keep: N·s/m; raise it only on the bench, in steps, until it buzzes"),
     ("max_probe_speed", "keep: m/s, faster under force is a fault"),
     ("name", "yours"),
     ("range", "measure: rad at the end stops, and 0.03 more; beyond is a sensor fault"),

@@ -23,7 +23,8 @@ use std::time::{Duration, Instant};
 // The scene is the emulated board's alone: a device at a port has its own.
 #[command(mut_group("SceneOptions", |scene| scene.conflicts_with("port")))]
 pub struct Arguments {
-    /// Record of everything (CSV)
+    /// Record of everything (CSV): SI units, the tables' frame; contact 0 behind, 1 in front, 2 touching; phase 0 reset, 1
+    /// calibrate, 2 armed, 3 running, 4 fault
     #[arg(long, value_name = "OUT")]
     csv: Option<PathBuf>,
     /// File for the raw bytes of the line

@@ -16,7 +16,8 @@ use std::process::ExitCode;
 pub struct Arguments {
     #[command(flatten)]
     scene: SceneOptions,
-    /// Record of every tick (CSV)
+    /// Record of every tick (CSV): SI units, the model file's frame, duty -1 to 1; contact 0 behind, 1 in front, 2 touching;
+    /// phase 0 reset, 1 calibrate, 2 armed, 3 running, 4 fault
     #[arg(long, value_name = "OUT")]
     csv: Option<PathBuf>,
     /// Recording for the page in the browser (`view --recording`)
