@@ -5,7 +5,7 @@ use super::curve::SplineCurve;
 use crate::patch::{Coefficients, SplinePatch};
 
 /// Instructions of a second-order evaluation of degree (n, n), 1 to 5: polynomial, rational.
-const UNROLLED: [[u32; 5]; 2] = [[66, 138, 243, 497, 656], [125, 231, 459, 657, 869]];
+const UNROLLED: [[u32; 5]; 2] = [[66, 138, 243, 497, 656], [125, 231, 460, 657, 869]];
 /// The same of any other degree, by rows: at all, and for each coefficient of a span.
 const BY_ROWS: [[u32; 2]; 2] = [[260, 36], [366, 47]];
 /// Instructions of a curve of degree 10: polynomial, rational.
