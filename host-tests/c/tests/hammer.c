@@ -480,8 +480,8 @@ static palpate_status bad_soft(void)
 static const palpate_dial dial = {0.02f, 1.2f};
 static palpate_device motor;
 static const palpate_feel feel = {
-    {0.25f, 0.01f, 0}, {0.25f, 0.05f, 1e-4f, 0.6f, -3, 3, 0.1f, 0.01f}, {0.05f, 1e-3f, 0}, {0.01f, 0, 0.01f},
-    {{-1, 1}, 0.2f, 1e-4f}, 1e-4f, {1e-3f, 5}, {0.2f, 0.3f, 1e-3f}};
+    {0.25f, 2e-3f, 0}, {0.25f, 0.02f, 1e-4f, 0.6f, -3, 3, 0.02f, 0.01f}, {0.05f, 1e-4f, 0}, {0.01f, 0, 0.01f},
+    {{-1, 1}, 0.1f, 1e-4f}, 1e-4f, {1e-3f, 5}, {0.2f, 0.3f, 1e-3f}};
 
 /* A loop of a dial, ticked anywhere. */
 static void turn(void)

@@ -1,4 +1,4 @@
-/* A loop with the settings recommended for a device, or a plain one of 1,000 N/m. It is fed the counts of a run and
+/* A loop with the settings recommended for a device, or a plain one of 1,000 N/m or its limit. It is fed the counts of a run and
    prints the hash of its states and the largest step of its force from tick to tick, mN.
 
    rendering FILE.palp COUNTS ENABLE_AT recommended|plain */
@@ -21,7 +21,8 @@ int main(int count, char **arguments)
     palpate_settings settings;
     good(device_settings(&settings));
     if (!strcmp(arguments[4], "plain")) {
-        settings.stiffness = 1000, settings.damping = 2, settings.velocity_corner = 150;
+        settings.stiffness = DEVICE.max_stiffness < 1000 ? DEVICE.max_stiffness : 1000;
+        settings.damping = 2, settings.velocity_corner = 150;
         settings.between_counts = 0, settings.ease_change = 0;
     }
     settings.body_origin[0] = -0.03f, settings.body_origin[1] = -0.02f, settings.body_origin[2] = -0.01675f;

@@ -19,7 +19,7 @@ use std::process::Command;
 
 /// Where the box's tables lie, so that it is centred in the workspace.
 const ORIGIN: Vec3 = vec3(-0.03, -0.02, -0.016_75);
-/// Plain, as the C library had it alone: N/m, N·s/m, Hz.
+/// Plain, as the C library had it alone: N/m, or the device's limit; N·s/m, Hz.
 const PLAIN: [f32; 3] = [1_000.0, 2.0, 150.0];
 /// The tick from which force is asked for.
 const ENABLE_AT: usize = 200;
@@ -82,6 +82,7 @@ fn compare<K: Kinematics<JOINTS>, const JOINTS: usize>(
     let Recommended { settings, rendering } = shipped.recommended();
     let settings = Settings { body_origin_m: ORIGIN, ..settings };
     let [stiffness, damping, corner] = PLAIN;
+    let stiffness = stiffness.min(device.max_stiffness_n_per_m);
     let plain =
         Settings { stiffness_n_per_m: stiffness, damping_n_s_per_m: damping, velocity_corner_hz: corner, ..settings };
     let stage = Stage {
