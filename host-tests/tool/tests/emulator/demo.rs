@@ -126,14 +126,14 @@ fn a_rounded_box_from_cad_is_felt_without_a_fault() {
     assert!(last.ticks == 20_000 && last.features[0] > 10, "{last}");
 }
 
-/// Of degree 5: its worst tick takes more than the 2,500 instructions that the board has at 25 kHz.
+/// Of degree 5: its worst tick takes more than the 1,560 instructions that the board has at 40 kHz.
 #[test]
 fn a_shell_too_heavy_for_a_rate_is_felt_at_a_lower_one() {
     if !is_wanted("a shell of degree 5 on the emulated board") {
         return;
     }
-    let (tried, last) = felt("shell", 25_000.0);
-    assert_eq!(tried[0], (25_000.0, Some(Fault::Overrun)));
+    let (tried, last) = felt("shell", 40_000.0);
+    assert_eq!(tried[0], (40_000.0, Some(Fault::Overrun)));
     let (rate, fault) = tried[tried.len() - 1];
     assert!(RATES.contains(&rate) && fault.is_none(), "{tried:?}");
     // Five seconds of it.
