@@ -98,7 +98,8 @@ pub enum KnobError {
         /// The last index that exists.
         last: u8,
     },
-    /// The parts are too stiff for their damping: a dial that is let go of would ring, driven by the motor.
+    /// The parts are too stiff for their damping: a dial that is let go of would ring, driven by the motor. By the lag of a
+    /// gimbal motor at 4 kHz: at lower rates more damping is needed than is asked for here.
     Undamped {
         /// Damping everywhere that they have.
         asked_n_m_s_per_rad: f32,

@@ -226,7 +226,7 @@ fn check_units(file: &DeviceFile, refuse: &impl Fn(&str, &str) -> DeviceFileErro
         }
         within(&entry("inertia"), inertia.unwrap_or(0.0), 0.0, 1.0, "kg·m²")?;
     }
-    within("limits.max_force", file.limits.max_force, f64::NEG_INFINITY, 500.0, "N")?;
+    within("limits.max_force", file.limits.max_force, 0.0, 500.0, "N")?;
     within("limits.max_stiffness", file.limits.max_stiffness, 0.0, 1e6, "N/m")?;
     if file.limits.max_stiffness > 0.0 && file.limits.max_stiffness < 10.0 {
         return Err(refuse("limits.max_stiffness", "must be at least 10 N/m: it is in N/m, not in N/mm"));

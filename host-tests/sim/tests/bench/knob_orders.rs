@@ -153,7 +153,7 @@ fn whatever_feel_is_taken_a_dial_that_is_let_go_of_comes_to_rest() {
         device.rig.set(|world| world.dial.hold(Fingers::clamp(aim)));
         (0..2_000).for_each(|_| device.tick());
         device.rig.set(|world| world.dial.hold(Fingers::NONE));
-        // A dial that rings does so for ever; one that slips off the top of a detent takes its time.
+        // A dial that rings never stops; one that slips off the top of a detent takes some time.
         let mut turned = f64::INFINITY;
         for window in 0..48 {
             let rates = (0..500).map(|_| {
