@@ -1,15 +1,19 @@
-//! The same figures of a recording: of `sim --csv`, or of a real device by `monitor --csv`.
+//! The same figures of a recording: of `sim --csv`, or of a real device that records every tick.
 //!
 //! A real device's probe is known only from its encoders, whose counts would hide the vibration. So its displacement is
 //! computed from the force, as that of the device's own mass: `x = F/(m ω²)`. With the added mass of a hand the
 //! displacement is smaller.
+//!
+//! The polarity check's pulses and all that is driven outside of the phase *running* are no force of the surface: in
+//! those ticks nothing is touched and there is no force.
 
 use super::figures::Figures;
 use super::record::{Recording, Tick};
 use super::sensation::Sensation;
 use super::spectrum::Spectrum;
 use super::threshold::Threshold;
-use anyhow::{Context, bail};
+use anyhow::{Context, bail, ensure};
+use palpate::servo::Phase;
 use std::path::Path;
 
 /// Code of the contact [`palpate::track::Contact::Touching`].
@@ -32,7 +36,9 @@ pub fn read(path: &Path) -> anyhow::Result<Recording> {
     if time.is_none() && rate.is_none() {
         bail!("{}: no column \"time\" or \"rate\"", path.display());
     }
+    let [phase, withheld, tick] = ["phase", "withheld", "tick"].map(column);
     let mut recording = Recording::default();
+    let mut last_tick = None;
     let (mut first, mut last, mut rates) = (None, 0.0, Vec::new());
     for (row, record) in reader.records().enumerate() {
         let record = record?;
@@ -65,12 +71,26 @@ pub fn read(path: &Path) -> anyhow::Result<Recording> {
                 );
             }
         }
+        if let Some(now) = tick.map(at).transpose()?
+            && let Some(before) = last_tick.replace(now)
+        {
+            ensure!(
+                now - before == 1.0,
+                "{}: row {}: tick {now} comes after {before}, and steps and ripple need every tick: `palpate sim --csv` \
+                 records all; a device does with a `Recorder` of 1, where its line is fast enough",
+                path.display(),
+                row + 2
+            );
+        }
+        let is_rendered = phase.map(at).transpose()?.is_none_or(|phase| phase == f64::from(Phase::Running as u8))
+            && withheld.map(at).transpose()?.is_none_or(|withheld| withheld == 0.0);
+        let force = vector(force)?;
         recording.ticks.push(Tick {
             probe: vector(probe)?,
-            force: vector(force)?,
+            force: if is_rendered { force } else { [0.0; 3] },
             hand: [0.0; 3],
             gap: at(gap)?,
-            is_touching: at(contact)? == TOUCHING,
+            is_touching: is_rendered && at(contact)? == TOUCHING,
         });
     }
     let count = recording.ticks.len();
@@ -165,6 +185,23 @@ mod tests {
         assert!(refused(&format!("{HEADER}\n0,0,0,0,0,1,0,0,0\n")).contains("fewer than two ticks"));
         let spoilt = format!("{HEADER}\n0,0,0,0,0,1,0,0,0\n1,0,0,oops,0,1,0,0,0\n");
         assert!(refused(&spoilt).contains("row 3: \"oops\" is not a number"));
+        let sparse = format!("tick,{HEADER}\n7,0,0,0,0,0,1,0,0,0\n8,1,0,0,0,0,1,0,0,0\n48,2,0,0,0,0,1,0,0,0\n");
+        assert!(refused(&sparse).contains("row 4: tick 48 comes after 8"));
+    }
+
+    #[test]
+    fn a_force_is_the_surfaces_only_while_it_is_rendered() {
+        let rows = [(2, 0, 3.0), (3, 1, 0.0), (3, 1, 2.0), (3, 1, 0.0), (3, 0, 0.5), (3, 0, 0.7), (4, 0, 4.0)];
+        let mut text = format!("{HEADER},phase,withheld\n");
+        for (time, (phase, withheld, force)) in rows.into_iter().enumerate() {
+            writeln!(text, "{time},0,0,0,-0.001,2,0,0,{force},{phase},{withheld}").unwrap();
+        }
+        let file = file(&text);
+        let recording = read(file.path()).unwrap();
+        let forces = recording.ticks.iter().map(|tick| tick.force[2]).collect::<Vec<_>>();
+        assert_eq!(forces, [0.0, 0.0, 0.0, 0.0, 0.5, 0.7, 0.0]);
+        let figures = figures(&recording, 0.05, &Threshold::approximate());
+        assert_eq!((figures.touches, figures.steps.any, figures.afterglow), (1, 0.7, 0.0));
     }
 
     #[test]

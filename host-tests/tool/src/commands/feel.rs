@@ -55,7 +55,7 @@ pub struct Arguments {
     /// Detection threshold: CSV of frequency, Hz, and peak displacement, m, under a header
     #[arg(long, value_name = "FILE.csv")]
     threshold: Option<PathBuf>,
-    /// Recording to evaluate, from `sim --csv` or `monitor --csv`, of one device and one model
+    /// Recording of every tick to evaluate, from `sim --csv`, of one device and one model
     #[arg(long, value_name = "FILE.csv", conflicts_with = "model")]
     recording: Option<PathBuf>,
     /// Folder for figures (CSV) and report (HTML)

@@ -455,19 +455,25 @@ impl Scene {
         }
     }
 
-    /// For how long the polarity check withheld the force of a run, and when each joint was confirmed, in words.
-    pub fn withheld(&self, trace: &Trace) -> Option<(&'static str, String)> {
+    /// The time, s, from which on the polarity check withholds no force of a run; `None` without a check, infinite where
+    /// a joint stays unconfirmed.
+    pub fn withheld_until(&self, trace: &Trace) -> Option<f64> {
         self.protection?.polarity?;
         let confirmed = trace.confirmed?;
+        Some(confirmed.into_iter().map(|when| when.unwrap_or(f64::INFINITY)).fold(0.0, f64::max))
+    }
+
+    /// For how long the polarity check withheld the force of a run, and when each joint was confirmed, in words.
+    pub fn withheld(&self, trace: &Trace) -> Option<(&'static str, String)> {
+        let last = self.withheld_until(trace)?;
         let asked = f64::from(self.enable_at) / trace.rate;
-        let each = confirmed.iter().zip(["a", "b", "c"]).map(|(when, joint)| match when {
+        let each = trace.confirmed?.into_iter().zip(["a", "b", "c"]).map(|(when, joint)| match when {
             Some(when) => format!("{joint} confirmed after {:.2} s", when - asked),
             None => format!("{joint} not confirmed"),
         });
         let each = each.collect::<Vec<_>>().join(", ");
-        let last = confirmed.into_iter().try_fold(asked, |last, when| Some(last.max(when?)));
-        let until = last.unwrap_or(trace.samples.len() as f64 / trace.rate) - asked;
-        let remedy = if last.is_some() {
+        let until = last.min(trace.samples.len() as f64 / trace.rate).max(asked) - asked;
+        let remedy = if last.is_finite() {
             ""
         } else {
             ", to the end: a joint is confirmed while the probe presses on the surface, and gravity compensation is \

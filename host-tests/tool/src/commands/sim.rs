@@ -17,7 +17,7 @@ pub struct Arguments {
     #[command(flatten)]
     scene: SceneOptions,
     /// Record of every tick (CSV): SI units, the model file's frame, duty -1 to 1; contact 0 behind, 1 in front, 2 touching;
-    /// phase 0 reset, 1 calibrate, 2 armed, 3 running, 4 fault
+    /// phase 0 reset, 1 calibrate, 2 armed, 3 running, 4 fault; withheld 1 until the polarity check has confirmed each joint
     #[arg(long, value_name = "OUT")]
     csv: Option<PathBuf>,
     /// Recording for the page in the browser (`view --recording`)
@@ -65,13 +65,16 @@ pub fn run_on_host(options: &SceneOptions, scene: &Scene) -> anyhow::Result<Trac
     Ok(simulation::run(servo.as_mut(), &mut plant, scene.span(), |done| bar.tell(done))?)
 }
 
-/// One row a tick; SI units, the probe in the model's own frame; last the names of device and model.
+/// One row a tick; SI units, the probe in the model's own frame; then the names of device and model,
+/// and whether the polarity check withholds force.
 fn write_csv(trace: &Trace, scene: &Scene, path: &Path) -> anyhow::Result<()> {
     let mut writer = csv::Writer::from_path(path)?;
     writer.write_record([
         "time", "count_a", "count_b", "count_c", "duty_a", "duty_b", "duty_c", "phase", "fault", "mode", "contact",
         "u", "v", "probe_x", "probe_y", "probe_z", "gap", "force_x", "force_y", "force_z", "device", "model",
+        "withheld",
     ])?;
+    let until = scene.withheld_until(trace).unwrap_or(0.0);
     for sample in &trace.samples {
         let report = &sample.report;
         let mut row = vec![sample.time.to_string()];
@@ -83,6 +86,7 @@ fn write_csv(trace: &Trace, scene: &Scene, path: &Path) -> anyhow::Result<()> {
         row.push(report.gap.to_string());
         row.extend(report.force.map(|component| component.to_string()));
         row.extend([scene.device.name, scene.model_name()].map(str::to_owned));
+        row.push(u8::from(sample.time < until).to_string());
         writer.write_record(row)?;
     }
     writer.flush()?;

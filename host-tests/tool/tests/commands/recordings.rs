@@ -50,6 +50,26 @@ fn a_run_is_as_smooth_as_is_recommended_unless_it_is_to_be_plain() -> Result<(),
     Ok(())
 }
 
+/// The polarity pulses of a protected run are 2 N on a Falcon.
+#[test]
+fn the_pulses_of_the_polarity_check_are_no_steps_of_the_surface() -> Result<(), Box<dyn Error>> {
+    let folder = tempfile::tempdir()?;
+    let csv = folder.path().join("run.csv");
+    record("falcon", &["--protected"], &csv)?;
+    let pulse = largest_step(&csv)?;
+    let feel = palpate(&["feel", "--device", "falcon", "--recording", csv.to_str().unwrap_or_default()])?;
+    let table = String::from_utf8(feel.stdout)?;
+    let figure = |name: &str| -> Option<f64> {
+        let (_, figure) = table.lines().find_map(|line| line.split_once(name))?;
+        figure.split_whitespace().next()?.parse().ok()
+    };
+    let (step, ripple) = (figure("largest step  "), figure("ripple in the longest touch"));
+    println!("largest step {step:?} mN, of a pulse {:.1} mN; ripple {ripple:?} mN", 1e3 * pulse);
+    assert!(pulse > 1.0 && step.is_some_and(|step| (1.0..50.1).contains(&step)), "{table}");
+    assert!(ripple.is_some_and(|ripple| ripple < 500.0), "{table}");
+    Ok(())
+}
+
 #[test]
 fn a_recording_of_another_device_is_refused() -> Result<(), Box<dyn Error>> {
     let folder = tempfile::tempdir()?;
