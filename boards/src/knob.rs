@@ -110,7 +110,7 @@ pub static FEELS: [Feel; 6] = [
     },
     Feel {
         texture: Some(Wave { pitch_rad: PITCH / 6.0, torque_n_m: 0.01, centre_rad: 0.0 }),
-        damping_n_m_s_per_rad: 6e-4,
+        damping_n_m_s_per_rad: 1.1e-3,
         ..Feel::FREE
     },
     Feel {

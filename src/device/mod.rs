@@ -171,7 +171,7 @@ const RIM: f32 = 0.05;
 /// Above the rounding of an angle within a turn and of the ends of its range, radians.
 const ROUNDED: f32 = 1.0e-5;
 /// The width of the fade at a singularity, as a fraction of the minimum margin.
-const MARGIN_RIM: f32 = 0.25;
+pub(crate) const MARGIN_RIM: f32 = 0.25;
 
 impl<K: Kinematics<JOINTS>, const JOINTS: usize> Device<K, JOINTS> {
     /// Whether these joint angles, radians, are in the workspace: each in its range, the mechanism closed, and far

@@ -458,13 +458,10 @@ impl Feel {
         sum
     }
 
-    /// The damping everywhere that the feel needs, N·m·s/rad, where its torque comes late by `lag_s` and the dial's own
-    /// friction bears `undamped_n_m_per_rad` with a torque of `most_n_m`.
-    ///
-    /// A late stiffness drives the dial like a negative damping of their product `K t`: in a swing of `A` radians it gives
-    /// `π K t √(K/J) A²`, and friction takes `4 τ A`. A spring of torque `T` is that stiff within `A = T/K`: what friction
-    /// bears goes with `T √K`. Clicks and end stops have damping of their own. A feel's friction is not counted.
-    pub(crate) const fn needed_damping(&self, lag_s: f32, undamped_n_m_per_rad: f32, most_n_m: f32) -> f32 {
+    /// The damping everywhere that the feel needs, N·m·s/rad, where its torque comes late by `lag_s`: a late stiffness
+    /// drives the dial like a negative damping, of their product. Clicks and end stops have damping of their own. Friction
+    /// is not counted: what it takes from a swing does not grow as that does.
+    pub(crate) const fn needed_damping(&self, lag_s: f32) -> f32 {
         let (mut stiffness, mut in_clicks) = (self.stiffness(), 0.0);
         if let Some(clicks) = &self.clicks {
             let stiffest =
@@ -474,13 +471,12 @@ impl Feel {
             let lacks = lag_s * stiffest - clicks.damping;
             in_clicks = if lacks > 0.0 { lacks } else { 0.0 };
         }
-        let mut at_ends = f32::NEG_INFINITY;
+        let mut at_ends = 0.0;
         if let Some(ends) = &self.ends {
-            at_ends = lag_s * (stiffness - undamped_n_m_per_rad) - ends.damping_n_m_s_per_rad;
+            at_ends = lag_s * stiffness - ends.damping_n_m_s_per_rad;
             stiffness -= ends.stiffness_n_m_per_rad;
         }
-        let stronger = most_n_m / self.torque_between_ends();
-        let between = lag_s * (stiffness - undamped_n_m_per_rad * stronger * stronger);
+        let between = lag_s * stiffness;
         in_clicks + if at_ends > between { at_ends } else { between }
     }
 

@@ -2,7 +2,7 @@
 
 use super::fault::Phase;
 use super::surface::{BakedTables, Surface, Touched, Tracked, witness_words};
-use crate::device::{Device, Dial};
+use crate::device::{Device, Dial, MARGIN_RIM};
 use crate::math::{Vec3, saturate};
 use crate::patch::{SecondDerivatives, SurfacePoint};
 use crate::render::{Feel, FeelError, FeelPart, wound};
@@ -30,7 +30,11 @@ use core::fmt;
 /// /// Free, and 24 detents a turn.
 /// static FEELS: [Feel; 2] = [
 ///     Feel::FREE,
-///     Feel { detents: Some(Wave { pitch_rad: 0.2618, torque_n_m: 0.01, centre_rad: 0.0 }), ..Feel::FREE },
+///     Feel {
+///         detents: Some(Wave { pitch_rad: 0.2618, torque_n_m: 0.01, centre_rad: 0.0 }),
+///         damping_n_m_s_per_rad: 2e-4,
+///         ..Feel::FREE
+///     },
 /// ];
 /// static KNOB: Knob = Knob::new(&GIMBAL_KNOB, &FEELS, 0.5);
 /// static SERVO: Servo<Knob, Dial, 1> = Servo::new(&GIMBAL_KNOB, &KNOB, Config::DEFAULT);
@@ -98,20 +102,23 @@ pub enum KnobError {
         /// The last index that exists.
         last: u8,
     },
-    /// The parts are too stiff for their damping: a dial that is let go of would ring, driven by the motor. By the lag of a
-    /// gimbal motor at 4 kHz: at lower rates more damping is needed than is asked for here.
+    /// The parts are too stiff for their damping ([`DAMPING_PER_STIFFNESS_S`]): a dial that is let go of would ring, driven
+    /// by the motor.
     Undamped {
         /// Damping everywhere that they have.
         asked_n_m_s_per_rad: f32,
         /// That they need.
         needed_n_m_s_per_rad: f32,
     },
+    /// The device's minimum margin is above 0.8 of the dial's radius, which is its margin everywhere: it would never have
+    /// its whole force.
+    Margin,
 }
 
-/// How late the torque of an angle comes at 4 kHz, s: sensor, winding, computation and hold of a gimbal motor.
-const LAG_S: f32 = 6e-4;
-/// The share of the device's maximum stiffness that needs no damping at its maximum force: the dial's friction calms it.
-const UNDAMPED: f32 = 0.125;
+/// The damping that a feel needs for each N·m/rad of its stiffness, N·m·s/rad: how late a gimbal motor's torque comes at
+/// 4 kHz, by sensor, winding, computation and hold, and a fifth more. So damped, a dial whose friction is 0.2 mN·m rests
+/// even where the motor's limit cuts the damping off. A lower servo rate needs more.
+pub const DAMPING_PER_STIFFNESS_S: f32 = 7e-4;
 
 /// How far a part of a feel that a host sets may take the dial, radians: an eighth of a turn.
 pub const MAX_RETURN_RAD: f32 = TAU / 8.0;
@@ -129,6 +136,7 @@ impl KnobError {
             Self::Far { .. } => "a part would turn the dial by more than an eighth of a turn",
             Self::Late => "a stored feel is restored before the first tick only",
             Self::Missing { .. } => "there is no such feel",
+            Self::Margin => "the device's minimum margin must be at most 0.8 of the dial's radius",
             Self::Undamped { .. } => "a feel is too stiff for its damping: a dial that is let go of would ring",
         }
     }
@@ -239,6 +247,10 @@ impl Knob {
         if feels.is_empty() || feels.len() > 255 {
             return Err(KnobError::Feels);
         }
+        let is_whole = device.min_margin_m_per_rad * (1.0 + MARGIN_RIM) <= radius * (1.0 + 4.0 * f32::EPSILON);
+        if !is_whole {
+            return Err(KnobError::Margin);
+        }
         let knob = Self {
             feels,
             radius,
@@ -280,8 +292,9 @@ impl Knob {
             return Err(KnobError::Torque { asked_n_m: torque, limit_n_m: self.most });
         }
         let damped = feel.damping_n_m_s_per_rad;
-        let needed = feel.needed_damping(LAG_S, UNDAMPED * self.max_stiffness * ROUNDED, self.most);
-        let rests = needed <= damped * ROUNDED;
+        let needed = feel.needed_damping(DAMPING_PER_STIFFNESS_S);
+        // Differences of stiffnesses leave a rounding.
+        let rests = needed <= damped * ROUNDED + 4.0 * f32::EPSILON * DAMPING_PER_STIFFNESS_S * stiffness;
         if rests {
             Ok(())
         } else {
@@ -542,10 +555,14 @@ mod tests {
         Feel::FREE,
         Feel {
             detents: Some(Wave { pitch_rad: 0.25, torque_n_m: 0.03, centre_rad: 0.0 }),
-            damping_n_m_s_per_rad: 5e-4,
+            damping_n_m_s_per_rad: 6e-4,
             ..Feel::FREE
         },
-        Feel { spring: Some(Spring { stiffness_n_m_per_rad: 0.1, rest_rad: 0.0, max_torque_n_m: 0.05 }), ..Feel::FREE },
+        Feel {
+            spring: Some(Spring { stiffness_n_m_per_rad: 0.1, rest_rad: 0.0, max_torque_n_m: 0.05 }),
+            damping_n_m_s_per_rad: 1e-4,
+            ..Feel::FREE
+        },
         Feel {
             ends: Some(Ends { between_rad: [-0.5, 0.5], stiffness_n_m_per_rad: 1.0, damping_n_m_s_per_rad: 1e-3 }),
             ..Feel::FREE
@@ -612,6 +629,12 @@ mod tests {
         }
         assert_eq!(refused(Feel { detents: wave(0.0, 0.01), ..Feel::FREE }), KnobError::Feel(FeelError::Detents));
         assert_eq!(Knob::try_new(&GIMBAL_KNOB, &[], LET_GO), Err(KnobError::Feels));
+        for (min_margin_m_per_rad, refusal) in
+            [(0.016, None), (0.0161, Some(KnobError::Margin)), (f32::NAN, Some(KnobError::Margin))]
+        {
+            let device = Device { min_margin_m_per_rad, ..GIMBAL_KNOB };
+            assert_eq!(Knob::try_new(&device, &FEELS, LET_GO).err(), refusal);
+        }
         assert_eq!(Knob::try_new(&GIMBAL_KNOB, &FEELS, 0.0), Err(KnobError::LetGo));
     }
 
@@ -622,13 +645,14 @@ mod tests {
         // So short that an angle has no fraction of it left.
         let wave = Wave { pitch_rad: 1e-40, torque_n_m: 0.0, centre_rad: 0.0 };
         assert_eq!(KNOB.set(&mut state, FeelPart::Detents(Some(wave))), Err(KnobError::Feel(FeelError::Detents)));
+        assert_eq!(KNOB.set(&mut state, FeelPart::Damping(1e-4)), Ok(()));
         // The dial is in it, far from its middle.
         let notch = Notch { at_rad: 0.0, width_rad: 3.1, torque_n_m: 1e-3 };
         assert_eq!(KNOB.set(&mut state, FeelPart::Notch(Some(notch))), Err(KnobError::Far { asked_rad: 1.5 }));
         let clicks = Detents {
             pitch: 1.4,
             stiffness: 1e-3,
-            damping: 0.0,
+            damping: 1e-6,
             snap: 1.0,
             first: -3,
             last: 3,

@@ -56,7 +56,7 @@ pub use contact::ContactLimits;
 pub use fault::{Event, Fault, Output, Phase, ResetReason};
 pub use guard::{Guard, GuardState, Guarded, Heat, Motion, ProtectionError, Remembered, Unguarded};
 pub use hertzian::Hertzian;
-pub use knob::{DialState, Knob, KnobError, KnobWitness, MAX_RETURN_RAD};
+pub use knob::{DAMPING_PER_STIFFNESS_S, DialState, Knob, KnobError, KnobWitness, MAX_RETURN_RAD};
 pub use settings::{Rendering, RenderingError, SafeOutput, Safety, SafetyError, Settings, SettingsError, StuckLimits};
 pub use soft::{SoftBody, SoftContact};
 pub use state::ServoState;

@@ -168,7 +168,8 @@ enum {
     PALPATE_KNOB_MAX_TORQUE = 99,    /**< All parts: more torque than max_force times radius. */
     PALPATE_KNOB_RELEASE_RATE = 100, /**< Release rate not positive and finite. */
     PALPATE_KNOB_FAR = 101,          /**< The part would take the dial further than an eighth of a turn. */
-    PALPATE_KNOB_UNDAMPED = 102      /**< All parts: too stiff for their damping, the dial would ring. */
+    PALPATE_KNOB_UNDAMPED = 102,     /**< All parts: too stiff for their damping, the dial would ring. */
+    PALPATE_KNOB_MARGIN = 103        /**< palpate_device::min_margin: above 0.8 of the dial's radius. */
 };
 
 /** Returns a status in a sentence, a static string; "unknown" of a code that is none. */
@@ -456,7 +457,8 @@ typedef struct palpate_joint {
 /** A device, all but its mechanism. Joints that it does not have are not looked at. */
 typedef struct palpate_device {
     palpate_joint joints[3]; /**< Its joints. */
-    float min_margin;        /**< Minimum distance from a singularity, m/rad, positive. */
+    float min_margin;        /**< Minimum distance from a singularity, m/rad, positive, below it no force. An arm's links scale
+                                  it (0.05 where they are 0.2 m); a dial's at most 0.8 of its radius, such as half. */
     float max_joint_rate;    /**< Maximum plausible joint speed, rad/s, positive; faster is a sensor fault. */
     float max_force;         /**< N, positive. */
     float max_stiffness;     /**< N/m, positive. */
@@ -583,7 +585,7 @@ typedef struct palpate_feel {
     palpate_wave texture;           /**< Texture between detents. */
     palpate_spring spring;          /**< A spring. */
     palpate_ends ends;              /**< End stops. */
-    float damping;                  /**< Everywhere, N·m·s/rad. */
+    float damping;                  /**< Everywhere, N·m·s/rad: 0.0007 s times the stiffness of all parts, or more. */
     palpate_dial_friction friction; /**< Dry friction. */
     palpate_notch notch;            /**< A click at one position. */
 } palpate_feel;

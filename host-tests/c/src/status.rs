@@ -83,6 +83,7 @@ pub enum Status {
     KnobReleaseRate = 100,
     KnobFar = 101,
     KnobUndamped = 102,
+    KnobMargin = 103,
 }
 
 impl Status {
@@ -166,11 +167,12 @@ impl Status {
             Self::KnobMaxTorque => c"the feel's torques add up to more than max_force times radius: lower one",
             Self::KnobReleaseRate => c"the dial's release rate must be positive and finite",
             Self::KnobFar => c"the dial is more than an eighth of a turn from there: turn it there first, or give a nearer position",
+            Self::KnobMargin => c"min_margin of a dial must be at most 0.8 of its radius, or its force would never be whole",
             Self::KnobUndamped => c"the feel is too stiff for its damping, a dial that is let go of would ring: set damping first, or weaken a part",
         }
     }
 
-    const ALL: [Self; 73] = [
+    const ALL: [Self; 74] = [
         Self::Ok,
         Self::Null,
         Self::Misaligned,
@@ -244,6 +246,7 @@ impl Status {
         Self::KnobReleaseRate,
         Self::KnobFar,
         Self::KnobUndamped,
+        Self::KnobMargin,
     ];
 }
 
@@ -403,6 +406,7 @@ impl From<KnobError> for Status {
             KnobError::LetGo => Self::KnobReleaseRate,
             KnobError::Far { .. } => Self::KnobFar,
             KnobError::Undamped { .. } => Self::KnobUndamped,
+            KnobError::Margin => Self::KnobMargin,
             // The table is this library's.
             _ => Self::OutOfRange,
         }

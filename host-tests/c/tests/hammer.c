@@ -492,6 +492,7 @@ static void turn(void)
     for (int32_t i = 0; i < 400; i++) {
         good("a tick of a dial", palpate_servo_tick(&dial_servo, &i, 1, 1, &output));
         good("a part of a feel", palpate_servo_set_feel(&dial_servo, any(9), &feel, NULL));
+        good("its damping", palpate_servo_set_feel(&dial_servo, PALPATE_FEEL_DAMPING, &feel, NULL));
     }
     good("where it is", palpate_servo_dial(&dial_servo, &turned));
 }

@@ -3,6 +3,7 @@
 use crate::arrays::line;
 use crate::refusal::Refusal;
 use palpate::render::Detents;
+use palpate::servo::DAMPING_PER_STIFFNESS_S;
 use palpate_link::{Device, Dial, DialFriction, Ends, Error, FeelPart, Line, Notch, Port, Spring, Wave};
 use palpate_sim::knob::{DIAL_ZERO, KnobFlash, SEARCH, SharedKnob, SimulatedKnob};
 use palpate_sim::plant::{DialSettings, Fingers};
@@ -115,11 +116,12 @@ fn part(name: &str, numbers: Option<&[f64]>) -> Option<FeelPart> {
         Some(Wave { pitch_rad, torque_n_m, centre_rad })
     };
     let clicks = |numbers: &[f32]| {
-        let [pitch, max_force, first, last, snap, damping] = *numbers.first_chunk()?;
+        let [pitch, max_force, first, last, snap] = *numbers.first_chunk()?;
         // As `palpate talk` has it: the whole torque where the next one takes over, four times as stiff beyond them.
         let stiffness = max_force / (snap * pitch);
-        let [first, last] = [first, last].map(|number| number as i32);
-        Some(Detents { pitch, stiffness, damping, snap, first, last, wall_stiffness: 4.0 * stiffness, max_force })
+        let (wall_stiffness, [first, last]) = (4.0 * stiffness, [first, last].map(|number| number as i32));
+        let damping = numbers.get(5).copied().unwrap_or(DAMPING_PER_STIFFNESS_S * wall_stiffness);
+        Some(Detents { pitch, stiffness, damping, snap, first, last, wall_stiffness, max_force })
     };
     let spring = |numbers: &[f32]| {
         let [stiffness_n_m_per_rad, max_torque_n_m, rest_rad] = *numbers.first_chunk()?;
@@ -269,9 +271,9 @@ impl Knob {
 
     fn trace<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let mut rows = self.world()?.world().trace.replace(Vec::new()).unwrap_or_default();
-        rows.iter_mut().for_each(|row| row[2] -= DIAL_ZERO);
+        rows.iter_mut().for_each(|row| row[3] -= DIAL_ZERO);
         let columns = PyDict::new(py);
-        for (at, name) in ["angle", "torque", "shaft_angle", "shaft_torque"].into_iter().enumerate() {
+        for (at, name) in ["angle", "rate", "torque", "shaft_angle", "shaft_torque"].into_iter().enumerate() {
             columns.set_item(name, line(py, rows.iter().map(|row| row[at]).collect()))?;
         }
         Ok(columns)

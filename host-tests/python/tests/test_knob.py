@@ -28,21 +28,22 @@ def held(knob, angle):
 
 
 def test_a_detent_is_its_closed_form_in_the_reports_and_at_the_shaft(knob):
-    pitch, strength, centre = TAU / 24, 0.02, 0.05
+    pitch, strength, centre, damping = TAU / 24, 0.02, 0.05, 4e-4
+    knob.damping(damping)
     angles = np.linspace(-0.3, 0.3, 25)
     free = [held(knob, angle)[0] for angle in angles]
     # The hand is at the encoder's angle, but for 0.3 degrees of eccentricity and 0.07 of noise.
     for angle, row in zip(angles, free, strict=True):
-        assert np.abs(row[[0, 2]] - angle).max() < 0.4 / 360 * TAU
+        assert np.abs(row[[0, 3]] - angle).max() < 0.4 / 360 * TAU
     knob.detents(pitch=pitch, torque=strength, centre=centre)
     reported, shaft = [], []
     for angle, before in zip(angles, free, strict=True):
         row, told = held(knob, angle)
-        form = -strength * np.sin(TAU * (told.angle - centre) / pitch)
+        form = -strength * np.sin(TAU * (told.angle - centre) / pitch) - damping * told.rate
         reported.append(np.abs(told.torque - form).max())
         # Cogging is the same with and without the feel.
-        shaft.append(row[3] - before[3] + strength * np.sin(TAU * (row[0] - centre) / pitch))
-        assert np.abs(np.subtract(*(row[[0, 2]] - before[[0, 2]]))) < 8e-4
+        shaft.append(row[4] - before[4] + strength * np.sin(TAU * (row[0] - centre) / pitch))
+        assert np.abs(np.subtract(*(row[[0, 3]] - before[[0, 3]]))) < 8e-4
         assert told.detent[-1] == np.rint((told.angle[-1] - centre) / pitch)
     print(f"reports {max(reported):.2g} N·m, shaft {np.abs(shaft).max():.2g} N·m off")
     # A rounding of the angle in single precision; the shaft's angle by the encoder is off by a count of 0.4 mrad.
@@ -51,6 +52,7 @@ def test_a_detent_is_its_closed_form_in_the_reports_and_at_the_shaft(knob):
 
 
 def test_a_setting_beyond_the_motor_is_refused_with_its_limit_and_changes_nothing(knob):
+    knob.damping(3e-4)
     knob.detents(pitch=TAU / 12, torque=0.03)
     _, before = held(knob, 0.05)
     for part, numbers, says in [
@@ -60,7 +62,7 @@ def test_a_setting_beyond_the_motor_is_refused_with_its_limit_and_changes_nothin
         ("spring", (0.02, 0.01, 3.0), r"spring was refused .* turn the dial by .* rad, and .* 0\.79 rad: turn"),
         ("friction", (float("nan"),), r"friction was refused .* finite"),
         ("notch", (0.0, 4.0, 0.01), r"notch was refused .* at most half a turn"),
-        ("notch", (0.1, 0.1, 0.015), r"notch was refused .* would ring: .* damped by 0\.00 .* need 0\.\d\d; set damping first"),
+        ("notch", (0.1, 0.1, 0.015), r"notch was refused .* would ring: .* damped by 0\.30 .* need 0\.91; set damping first"),
     ]:
         with pytest.raises(palpate.SettingsError, match=says):
             getattr(knob, part)(*numbers)
@@ -71,7 +73,9 @@ def test_a_setting_beyond_the_motor_is_refused_with_its_limit_and_changes_nothin
 
 
 def test_no_change_steps_the_torque_by_more_than_a_millinewton_metre_a_tick(knob):
-    random, forms, largest, change = np.random.default_rng(5), {}, 0.0, 0.0
+    damped = {"damping": lambda angle, rate: -2.5e-4 * rate}
+    random, forms, largest, change = np.random.default_rng(5), dict(damped), 0.0, 0.0
+    knob.damping(2.5e-4)
     for number in range(100):
         knob.hold(0.3 * np.sin(number / 9))
         at, strength = knob.read(0.1).angle[-1], random.uniform(0.005, 0.015)
@@ -79,25 +83,26 @@ def test_no_change_steps_the_torque_by_more_than_a_millinewton_metre_a_tick(knob
         knob.trace()
         if number % 5 == 0:
             knob.detents(TAU / 8, strength)
-            forms["detents"] = lambda angle, strength=strength: -strength * np.sin(8 * angle)
+            forms["detents"] = lambda angle, _, strength=strength: -strength * np.sin(8 * angle)
         elif number % 5 == 1:
             knob.texture(TAU / 24, strength / 10)
-            forms["texture"] = lambda angle, strength=strength: -strength / 10 * np.sin(24 * angle)
+            forms["texture"] = lambda angle, _, strength=strength: -strength / 10 * np.sin(24 * angle)
         elif number % 5 == 2:
             knob.spring(0.05, strength, at + 0.3)
-            forms["spring"] = lambda angle, rest=at + 0.3, most=strength: np.clip(0.05 * (rest - angle), -most, most)
+            forms["spring"] = lambda angle, _, rest=at + 0.3, most=strength: np.clip(0.05 * (rest - angle), -most, most)
         elif number % 5 == 3:
             knob.notch(at + 0.1, 1.2, strength)
-            forms["notch"] = lambda angle, at=at + 0.1, strength=strength: np.where(
+            forms["notch"] = lambda angle, _, at=at + 0.1, strength=strength: np.where(
                 np.abs(angle - at) < 0.6, -strength * np.sin(TAU * (angle - at) / 1.2), 0
             )
         else:
             knob.free()
-            forms = {}
+            knob.damping(2.5e-4)
+            forms = dict(damped)
         knob.read(0.1)
         trace = knob.trace()
         # The sensor's noise moves the torque of either feel by itself.
-        old, new = [sum((form(trace.angle) for form in each.values()), 0 * trace.angle) for each in (before, forms)]
+        old, new = [sum((form(trace.angle, trace.rate) for form in each.values()), 0 * trace.angle) for each in (before, forms)]
         by_itself = np.maximum(np.abs(np.diff(old)), np.abs(np.diff(new)))
         largest = max(largest, (np.abs(np.diff(trace.torque)) - by_itself).max())
         change = max(change, np.abs(new - old).max())
@@ -109,6 +114,7 @@ def test_no_change_steps_the_torque_by_more_than_a_millinewton_metre_a_tick(knob
 def test_reports_come_at_their_rate_with_detents_and_ends(knob):
     _, told = held(knob, 0.0)
     at = told.angle[-1]
+    knob.damping(2e-4)
     knob.detents(TAU / 24, 0.01)
     knob.ends(at - 0.5, at + 0.5, 0.5)
     knob.hold(0.6)
@@ -126,6 +132,7 @@ def test_a_fault_ends_the_reading_with_its_reason(knob):
 
 
 def test_a_feel_is_kept_once_the_button_is_up(knob):
+    knob.damping(2e-4)
     knob.detents(TAU / 24, 0.01)
     with pytest.raises(palpate.SettingsError, match="keep-feel was refused .* release the enable input first"):
         knob.keep()

@@ -13,15 +13,17 @@ class Knob:
     """A knob, `Knob.simulated()` or `Knob.open(port)`. It is also a context manager.
 
     Its feel is a sum of parts, each set by a method. The first one changes a copy of the active feel, so start with
-    `free`. No change steps the torque: the old one ramps down. Parts beyond the motor's limits raise SettingsError, which
-    names the part, the sum that it asks for, the limit and the remedy, and change nothing. Any other failure raises
-    LinkError.
+    `free` and `damping`: 0.0007 s times the stiffness of all parts, or the dial would ring once it is let go of. No change
+    steps the torque: the old one ramps down. Parts beyond the motor's limits, or too stiff for the damping, raise
+    SettingsError, which names the part, the sum that it asks for, the limit and the remedy, and change nothing. Any other
+    failure raises LinkError.
 
     A device that watches its link stops if it hears nothing: call a method at least every third of its timeout, 0.1 s
     on the boards.
 
     >>> knob = Knob.simulated()
     >>> knob.free()
+    >>> knob.damping(5e-4)
     >>> knob.detents(pitch=tau / 24, torque=0.02)
     >>> knob.read(0.1).torque.shape[0] >= 9
     True
@@ -56,11 +58,12 @@ class Knob:
         self._native.feel("detents", (pitch, torque, centre))
 
     def clicks(
-        self, pitch: float, torque: float, first: int, last: int, snap: float = 0.55, damping: float = 0.0
+        self, pitch: float, torque: float, first: int, last: int, snap: float = 0.55, damping: float | None = None
     ) -> None:
         """Detents that snap, `pitch` apart, rad, numbered from `first` to `last`: each pulls back with up to `torque`,
-        N·m, until the dial is `snap` pitches off; `damping`, N·m·s/rad."""
-        self._native.feel("clicks", (pitch, torque, first, last, snap, damping))
+        N·m, until the dial is `snap` pitches off; `damping`, N·m·s/rad, by default as much as they need."""
+        own = () if damping is None else (damping,)
+        self._native.feel("clicks", (pitch, torque, first, last, snap, *own))
 
     def texture(self, pitch: float, torque: float, centre: float = 0.0) -> None:
         """A fine wave beside the detents: as `detents`."""

@@ -142,12 +142,14 @@ class Turned(NamedTuple):
     """A simulated knob, a row a servo tick.
 
     angle : (n,) float64 -- by the encoder, as springs and end stops count it, rad.
+    rate : (n,) float64 -- as the loop estimates it, rad/s.
     torque : (n,) float64 -- of the feel, N·m, before soft start and limits.
     shaft_angle : (n,) float64 -- of the simulated shaft, rad: `angle` without the encoder's error.
     shaft_torque : (n,) float64 -- of motor and cogging on the shaft, N·m.
     """
 
     angle: NDArray[np.float64]
+    rate: NDArray[np.float64]
     torque: NDArray[np.float64]
     shaft_angle: NDArray[np.float64]
     shaft_torque: NDArray[np.float64]

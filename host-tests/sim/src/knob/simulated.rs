@@ -26,8 +26,8 @@ pub struct KnobWorld {
     pub turns: bool,
     /// A hand confirms what the device asks for: from this time on it holds the button for 0.6 s.
     pub confirms_at: Option<f64>,
-    /// Where it is kept, for each tick: angle and torque of the feel, angle and torque of the shaft, radians and N·m.
-    pub trace: Option<Vec<[f64; 4]>>,
+    /// Where it is kept, for each tick: angle, rate and torque of the feel, angle and torque of the shaft; radians, s, N·m.
+    pub trace: Option<Vec<[f64; 5]>>,
 }
 
 /// The same, for a board and for the hands at it.
@@ -146,12 +146,13 @@ impl SimulatedKnob {
     pub fn tick(&mut self) {
         self.board.tick(Self::BYTES);
         self.ticks += 1;
-        let felt = self.board.bench.state().witness();
-        let [angle, torque] = [felt.angle().unwrap_or(f32::NAN), felt.torque()].map(f64::from);
+        let state = self.board.bench.state();
+        let felt = state.witness();
+        let [angle, rate, torque] = [felt.angle().unwrap_or(f32::NAN), state.rates()[0], felt.torque()].map(f64::from);
         let mut world = self.knob.world();
         let shaft = [world.dial.angle(), world.dial.torque()];
         if let Some(trace) = &mut world.trace {
-            trace.push([angle, torque, shaft[0], shaft[1]]);
+            trace.push([angle, rate, torque, shaft[0], shaft[1]]);
         }
         drop(world);
         let asks = self.board.bench.asks_to_confirm();

@@ -99,7 +99,8 @@ fn stiff_part(random: &mut Pcg64, angle: f32) -> FeelPart {
         FeelPart::Spring(Some(of)) => FeelPart::Spring(Some(Spring {
             stiffness_n_m_per_rad: by * of.stiffness_n_m_per_rad,
             rest_rad: angle + 0.2 * (of.rest_rad - angle),
-            max_torque_n_m: 0.056,
+            // A weak one is a constant torque for most of a wide swing.
+            max_torque_n_m: random.random_range(0.005..0.056),
         })),
         FeelPart::Ends(Some(of)) => FeelPart::Ends(Some(Ends {
             between_rad: of.between_rad.map(|end| angle + (end - angle) * random.random::<f32>()),
@@ -112,7 +113,6 @@ fn stiff_part(random: &mut Pcg64, angle: f32) -> FeelPart {
             max_force: 0.056,
             ..of
         })),
-        FeelPart::Damping(_) if random.random() => FeelPart::Damping(0.0),
         part => part,
     }
 }
@@ -123,7 +123,11 @@ fn whatever_feel_is_taken_a_dial_that_is_let_go_of_comes_to_rest() {
     device.send(&HostMessage::Hello { protocol: PROTOCOL });
     (0..4).for_each(|_| device.tick());
     let mut random = Pcg64::seed_from_u64(71);
-    let (mut sent, mut refused, mut stiffest, mut longest, mut felt) = (0_u16, 0, 0.0_f32, 0, 0);
+    let (mut sent, mut refused, mut stiffest, mut longest, mut felt) = (1_u16, 0, 0.0_f32, 0, 0);
+    assert_eq!(device.order(0, Command::Feel(FeelPart::Free)), None);
+    let undamped = Spring { stiffness_n_m_per_rad: 0.2, rest_rad: 0.0, max_torque_n_m: 0.056 };
+    let answer = device.order(1, Command::Feel(FeelPart::Spring(Some(undamped)))).expect("a refusal");
+    assert!(answer.to_string().contains("damped by 0.00 mN·m·s/rad and stiff enough to need 0.14"), "{answer}");
     for round in 0..number("PALPATE_LET_GO", 60) {
         let angle = device.rig.bench.state().witness().angle().expect("aligned");
         // The stiffest spring and stops of the device first, without damping and with.
@@ -132,11 +136,14 @@ fn whatever_feel_is_taken_a_dial_that_is_let_go_of_comes_to_rest() {
             Ends { between_rad: [angle - 0.01, angle + 0.01], stiffness_n_m_per_rad: 1.6, damping_n_m_s_per_rad: 0.0 };
         let softer = Spring { stiffness_n_m_per_rad: 0.2, ..spring };
         let parts = match round {
-            0 => vec![FeelPart::Spring(Some(softer))],
-            1 => vec![FeelPart::Damping(8.4e-4), FeelPart::Spring(Some(spring))],
+            0 => vec![FeelPart::Damping(1.4e-4), FeelPart::Spring(Some(softer))],
+            1 => vec![FeelPart::Damping(1.12e-3), FeelPart::Spring(Some(spring))],
             2 => vec![FeelPart::Damping(3.2e-3), FeelPart::Spring(Some(spring))],
-            3 => vec![FeelPart::Damping(8.4e-4), FeelPart::Ends(Some(ends))],
-            _ => (0..5).map(|_| stiff_part(&mut random, angle)).collect(),
+            3 => vec![FeelPart::Damping(1.12e-3), FeelPart::Ends(Some(ends))],
+            _ => {
+                let damping = FeelPart::Damping(random.random_range(0.0..1.5e-3));
+                [damping].into_iter().chain((0..5).map(|_| stiff_part(&mut random, angle))).collect()
+            }
         };
         let mut taken = 0;
         for part in [FeelPart::Free].into_iter().chain(parts) {
@@ -149,9 +156,12 @@ fn whatever_feel_is_taken_a_dial_that_is_let_go_of_comes_to_rest() {
         assert!(round > 3 || (taken > 1 && refused == 0), "{round}");
         let stiffness = device.rig.bench.state().witness().own().expect("it is set").stiffness();
         (felt, stiffest) = (felt + u32::from(taken > 1), stiffest.max(stiffness));
-        let aim = device.rig.world.borrow().dial.angle() + if random.random() { 0.1 } else { -0.1 };
-        device.rig.set(|world| world.dial.hold(Fingers::clamp(aim)));
-        (0..2_000).for_each(|_| device.tick());
+        let (from, turn) = (device.rig.world.borrow().dial.angle(), random.random_range(-0.5..0.5));
+        for tick in 1..=2_000 {
+            let aim = from + turn * (f64::from(tick) / 1_500.0).min(1.0);
+            device.rig.set(|world| world.dial.hold(Fingers::clamp(aim)));
+            device.tick();
+        }
         device.rig.set(|world| world.dial.hold(Fingers::NONE));
         // A dial that rings never stops; one that slips off the top of a detent takes some time.
         let mut turned = f64::INFINITY;
@@ -554,6 +564,7 @@ fn a_kept_or_early_spring_leaves_the_dial_where_it_is() {
     let (mut device, knob) = make(flash);
     // Early: before the dial's place is known its rest may be anywhere.
     device.feel(FeelPart::Free).unwrap();
+    device.feel(FeelPart::Damping(1.4e-4)).unwrap();
     device.feel(FeelPart::Spring(Some(spring))).unwrap();
     let early = enable(&mut device, &knob, 3.0);
     // Then it must be near.

@@ -127,6 +127,7 @@ fn a_dial_is_as_precise_after_a_million_turns_as_after_one_and_its_detents_stay_
     // At 20 Hz, within the speed that is believed: 15,000 of 16,384 counts a tick, over several wraps of 32 bits.
     static FEELS: [Feel; 1] = [Feel {
         detents: Some(Wave { pitch_rad: core::f32::consts::TAU / 24.0, torque_n_m: 0.016, centre_rad: 0.0 }),
+        damping_n_m_s_per_rad: 2.8e-4,
         ..Feel::FREE
     }];
     let device = device(None);
@@ -144,7 +145,7 @@ fn a_dial_is_as_precise_after_a_million_turns_as_after_one_and_its_detents_stay_
             let whole = f64::from(state.turns()) * TAU;
             worst_angle = worst_angle.max((whole + f64::from(state.angles()[0]) - exact).abs());
             let in_turn = ((place.rem_euclid(16_384)) as f64 + 0.5) / 16_384.0 * TAU;
-            let torque = -0.016 * (24.0 * in_turn).sin();
+            let torque = -0.016 * (24.0 * in_turn).sin() - 2.8e-4 * f64::from(state.rates()[0]);
             worst_torque = worst_torque.max((f64::from(state.witness().torque()) - torque).abs());
         }
         assert_eq!((state.fault(), state.phase()), (None, Phase::Running));

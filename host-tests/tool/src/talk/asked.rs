@@ -1,6 +1,7 @@
 //! A line of the console, understood: millimetres and degrees to metres and radians.
 
 use palpate::render::{Detents, DialFriction, Ends, FeelPart, Notch, Spring, Wave};
+use palpate::servo::DAMPING_PER_STIFFNESS_S;
 use std::f32::consts::TAU;
 use std::path::PathBuf;
 use std::str::{FromStr, SplitWhitespace};
@@ -124,7 +125,10 @@ pub const FORMS: [(&str, &str); 36] = [
     ("texture DEGREES MNM", "a fine one of this pitch; `texture off`"),
     ("spring MNM_PER_DEGREE MAX REST", "a spring to this angle with a maximum torque; `spring off`"),
     ("ends FROM TO MNM_PER_DEGREE [DAMPING]", "end stops between angles, damped in mN·m·s/rad; `ends off`"),
-    ("damping VALUE", "damping everywhere in mN·m·s/rad"),
+    (
+        "damping VALUE",
+        "damping everywhere in mN·m·s/rad: 0.041 for each mN·m per degree of the parts' stiffness, or more",
+    ),
     ("friction MNM [RATE]", "dry friction, whole from this rate on, 2 rad/s; `friction off`"),
     ("notch AT WIDTH MNM", "a click at one angle, in degrees; `notch off`"),
     ("free", "no part is left"),
@@ -286,8 +290,9 @@ impl Words<'_> {
         let snap = 0.55;
         // The whole torque where the next one takes over, and four times as stiff beyond the outer ones.
         let stiffness = max_force / (snap * pitch);
-        let (first, last) = (self.integer("FIRST")?, self.integer("LAST")?);
-        Ok(Detents { pitch, stiffness, damping: 0.0, snap, first, last, wall_stiffness: 4.0 * stiffness, max_force })
+        let (first, last, wall_stiffness) = (self.integer("FIRST")?, self.integer("LAST")?, 4.0 * stiffness);
+        let damping = DAMPING_PER_STIFFNESS_S * wall_stiffness;
+        Ok(Detents { pitch, stiffness, damping, snap, first, last, wall_stiffness, max_force })
     }
 
     fn spring(&mut self) -> Result<Spring, Misunderstood> {

@@ -101,6 +101,23 @@ fn the_examples_of_the_package_link_with_its_libraries_and_the_loop_of_a_host_re
     let numbers: Vec<f64> = said.split([' ', ',']).filter_map(|word| word.parse().ok()).collect();
     assert!(said.contains("fault: none") && (numbers[1] - 0.5 * numbers[0]).abs() < 0.01, "{said}");
 
+    let program = folder.path().join("knob");
+    let mut gcc = in_c::compiler(Core::Host, "gcc").expect("in the repository");
+    gcc.args(["-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-I"]).arg(out.join("src"));
+    gcc.arg(out.join("examples/host/knob.c")).arg(host.join("libpalpate.a"));
+    run(gcc.args(["-lm", "-o"]).arg(&program));
+    let said = run(&mut std::process::Command::new(&program));
+    // At rest beyond an end stop: its torque, that of a detent and of the spring, as the header has them.
+    let angle = 2_700.5 * std::f64::consts::TAU / 16_384.0;
+    let torque = -10.0 * (std::f64::consts::TAU * angle / 0.2618).sin() - 520.0 * (angle - 1.0);
+    let duty = torque / 63.0 * 32_767.0;
+    assert!(said.starts_with("done, limit 0: ") && said.contains(", detent 4, end 1, "), "{said}");
+    let numbers: Vec<f64> = said.split([' ', ',']).filter_map(|word| word.trim_end().parse().ok()).collect();
+    // Half a count of 0.38 mrad by the stiffness, 0.76 N·m/rad.
+    for (found, expected, by) in [(numbers[0], angle, 2e-4), (numbers[3], torque, 0.15), (numbers[4], duty, 80.0)] {
+        assert!((found - expected).abs() < by, "{found} {expected}: {said}");
+    }
+
     fs::write(folder.path().join("Arduino.h"), ARDUINO).expect("a header");
     for core in [Core::M4, Core::M33] {
         for place in core.arduino() {

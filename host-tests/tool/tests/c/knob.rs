@@ -160,7 +160,9 @@ fn a_dial_whose_feel_is_changed_at_random_has_the_bits_of_rust_and_makes_no_step
     let servo = Servo::try_protected(&DEVICE, &KNOB, PROTECTION, config).expect("a loop");
     let mut state = servo.start();
     let spring = Spring { stiffness_n_m_per_rad: 0.05, rest_rad: 0.0, max_torque_n_m: 0.03 };
-    KNOB.restore(state.witness_mut(), Feel { spring: Some(spring), ..Feel::FREE }).expect("within the device");
+    let damping = 1e-3_f32;
+    KNOB.restore(state.witness_mut(), Feel { spring: Some(spring), damping_n_m_s_per_rad: damping, ..Feel::FREE })
+        .expect("within the device");
 
     let mut stream: Vec<u32> = [
         DEVICE.kinematics.radius_m,
@@ -187,6 +189,7 @@ fn a_dial_whose_feel_is_changed_at_random_has_the_bits_of_rust_and_makes_no_step
     for (place, number) in first[STARTS[4]..].iter_mut().zip([0.05_f32, 0.0, 0.03]) {
         *place = number.to_bits();
     }
+    first[STARTS[6]] = damping.to_bits();
     stream.extend(first);
 
     let random = &mut Pcg64::seed_from_u64(7);

@@ -21,10 +21,11 @@ const ALL: f32 = GIMBAL_KNOB.max_force_n * GIMBAL_KNOB.kinematics.radius_m;
 fn asking(torque: f32) -> HostKnob {
     let feel = Feel {
         spring: Some(Spring {
-            stiffness_n_m_per_rad: 0.2,
-            rest_rad: 100.0 * torque.signum(),
+            stiffness_n_m_per_rad: 1e-5,
+            rest_rad: 1e4 * torque.signum(),
             max_torque_n_m: torque.abs(),
         }),
+        damping_n_m_s_per_rad: 1e-8,
         ..Feel::FREE
     };
     let feels = Box::leak(Box::new([feel]));
