@@ -35,6 +35,10 @@ pub trait Line {
     /// As [`Self::send`].
     fn receive(&mut self) -> anyhow::Result<Vec<u8>>;
 
+    /// Lets sent bytes arrive where the device's time stands still meanwhile: that of an emulated board, which a loaded
+    /// machine delivers late. `behind` is how many messages the device has not seen yet.
+    fn settle(&mut self, _behind: u32) {}
+
     /// Presses the enable button or releases it, where this program can: one that is simulated. Whether it did.
     ///
     /// # Errors
@@ -98,6 +102,8 @@ pub struct Device {
     holds: Option<(u32, u8)>,
     /// The tick at which a person was asked to confirm.
     confirms: Option<u32>,
+    /// How often in a row nothing came.
+    silent: u32,
 }
 
 impl Device {
@@ -120,6 +126,7 @@ impl Device {
             answer: None,
             holds: None,
             confirms: None,
+            silent: 0,
         };
         device.set_up()?;
         Ok(device)
@@ -190,7 +197,7 @@ impl Device {
     pub fn reset(&mut self) -> anyhow::Result<bool> {
         let is_reset = self.line.reset()?;
         if is_reset {
-            (self.calibrated, self.marked) = (None, Marked::default());
+            (self.calibrated, self.marked, self.number) = (None, Marked::default(), 0);
             (self.receiver, self.last, self.holds) = (Receiver::new(), Reading::default(), None);
             self.bytes.clear();
             self.set_up()?;
@@ -283,6 +290,7 @@ impl Device {
     /// The newest reading that has come, if any.
     fn look(&mut self) -> anyhow::Result<Option<Reading>> {
         let came = self.line.receive()?;
+        self.silent = if came.is_empty() { self.silent + 1 } else { 0 };
         self.bytes.extend(came);
         let mut newest = None;
         let mut holds = self.holds;
@@ -301,6 +309,9 @@ impl Device {
             }
         }
         self.holds = holds;
+        // A key that is held must not seem let go because its messages are on their way.
+        let unseen = self.number.wrapping_sub(newest.unwrap_or(self.last).number);
+        self.line.settle(unseen.max(self.silent));
         self.confirm()?;
         Ok(newest)
     }

@@ -12,6 +12,10 @@ use std::time::Duration;
 const TICKS: u32 = 8;
 /// How long a byte may take on its way: emulated time stands still meanwhile.
 const WAIT: Duration = Duration::from_micros(200);
+/// The wait for messages that the board has not seen, times the square of their number, and its maximum: the 50 in which
+/// a silent key counts as released take ten seconds.
+const SETTLING: Duration = Duration::from_micros(250);
+const MOST_SETTLING: Duration = Duration::from_millis(250);
 
 /// A line to an emulated board.
 pub struct EmulatedLine {
@@ -62,6 +66,10 @@ impl Line for EmulatedLine {
             Err(error) if matches!(error.kind(), ErrorKind::TimedOut | ErrorKind::WouldBlock) => Ok(Vec::new()),
             Err(error) => Err(error.into()),
         }
+    }
+
+    fn settle(&mut self, behind: u32) {
+        std::thread::sleep((SETTLING * behind.saturating_mul(behind)).min(MOST_SETTLING));
     }
 
     fn press(&mut self, pressed: bool) -> anyhow::Result<bool> {

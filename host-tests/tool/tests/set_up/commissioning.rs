@@ -13,8 +13,8 @@ use palpate_sim::plant::{
 };
 use palpate_sim::wall::WALL;
 use palpate_tool::commission::{
-    Device as Commissioned, HostLine, KeyHeld, Lab, Planted, PlantedFault, SimulatedHands, World, Zero, begin_within,
-    calibration, find, find_mounting,
+    Device as Commissioned, HostLine, KeyHeld, Lab, Line, Planted, PlantedFault, SimulatedHands, World, Zero,
+    begin_within, calibration, find, find_mounting,
 };
 use std::cell::RefCell;
 
@@ -458,6 +458,45 @@ fn nothing_is_found_without_the_enable_button_or_the_key() {
         REFUSALS.with(|refusals| refusals.borrow_mut().push(refusal.to_string()));
     }
     REFUSALS.with(|refusals| println!("{:?}", refusals.borrow()));
+}
+
+#[test]
+fn a_key_stays_held_whose_messages_a_loaded_machine_delivers_late() {
+    /// A line that stalls now and then, for longer than a key may be silent, unless somebody waits for ten messages.
+    struct Loaded {
+        line: HostLine,
+        sent: Vec<u8>,
+        looks: u32,
+        stalls: bool,
+    }
+    impl Line for Loaded {
+        fn send(&mut self, bytes: &[u8]) -> anyhow::Result<()> {
+            self.sent.extend(bytes);
+            Ok(())
+        }
+        fn receive(&mut self) -> anyhow::Result<Vec<u8>> {
+            self.looks += 1;
+            self.stalls = self.looks % 500 > 100 && (self.stalls || self.looks % 500 == 400);
+            if !self.stalls {
+                self.line.send(&std::mem::take(&mut self.sent))?;
+            }
+            self.line.receive()
+        }
+        fn settle(&mut self, behind: u32) {
+            self.stalls &= behind < 10;
+        }
+        fn press(&mut self, pressed: bool) -> anyhow::Result<bool> {
+            self.line.press(pressed)
+        }
+    }
+    let (shipped, own) = devices().next().expect("one ships");
+    let world = World::shared(Planted::sound(shipped.plant)).expect("a bench");
+    let line = HostLine::new(&own, &world).expect("a device");
+    let line = Box::new(Loaded { line, sent: Vec::new(), looks: 0, stalls: false });
+    let device = Commissioned::connect(line, Box::new(KeyHeld)).expect("it answers");
+    let hands = Box::new(SimulatedHands::new(&world));
+    let found = find_mounting(&mut Lab { device, hands }, &own, Zero::Jig).map(|(_, findings)| findings);
+    assert!(found.as_ref().is_ok_and(Vec::is_empty), "{found:?}");
 }
 
 #[test]
