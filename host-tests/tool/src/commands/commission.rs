@@ -3,8 +3,8 @@
 use super::demo_knob::recorded_of;
 use super::device::toml_of;
 use crate::commission::{
-    Device, EmulatedLine, Finding, HostLine, Key, KeyHeld, Keyboard, Lab, Line, NoKey, Person, Planted, PlantedFault,
-    PortLine, RATE, SimulatedHands, World, Zero, angle, begin_within, calibration, find, find_mounting,
+    Device, EmulatedLine, Finding, GIVE, HostLine, Key, KeyHeld, Keyboard, Lab, Line, NoKey, Person, Planted,
+    PlantedFault, PortLine, RATE, SimulatedHands, World, Zero, angle, begin_within, calibration, find, find_mounting,
 };
 use crate::firmware::{Board, Choice, Program, Progress};
 use crate::knob;
@@ -185,7 +185,11 @@ fn keep(lab: &mut Lab, found: Option<Calibration<3>>) -> anyhow::Result<()> {
 
 fn report(own: &OwnDevice, findings: &[Finding]) {
     match findings.len() {
-        0 => println!("{}: all that was measured is as the file says", own.file.name),
+        0 => println!(
+            "{}: all that was measured is as the file says, angles within {} mrad or two counts",
+            own.file.name,
+            1e3 * GIVE
+        ),
         count => println!("{}: {count} found to be other than the file says", own.file.name),
     }
     for finding in findings {

@@ -22,7 +22,7 @@ mod world;
 
 pub use device::{Device, Key, KeyHeld, Line, NoKey};
 pub use emulated::EmulatedLine;
-pub use encoders::{angle, begin_within};
+pub use encoders::{GIVE, angle, begin_within};
 pub use find::calibration;
 pub use find::{find, find_mounting};
 pub use keyboard::Keyboard;

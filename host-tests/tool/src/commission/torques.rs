@@ -8,7 +8,7 @@
 //! meanwhile is taken for friction too.
 
 use super::device::said;
-use super::encoders::angle;
+use super::encoders::{GIVE, angle};
 use super::lab::differs;
 use super::motors::away;
 use super::motors::{Growth, duty, grow, most};
@@ -23,10 +23,8 @@ const LOADS: [f64; 2] = [0.1, 0.02];
 /// Lead of the slow search below the duty that the brisk one found, as a fraction of full duty: a fifth of that duty,
 /// or this.
 const LEAD: f64 = 0.03;
-/// Minimum motion, counts.
+/// Minimum motion, counts, and at least [`GIVE`].
 const COUNTS: f64 = 2.0;
-/// Minimum motion, rad: more than a hard support yields under the load.
-const GIVE: f64 = 5e-4;
 
 /// Measures the torques and writes them into the file. `loads` are gravity's torques on the joints, N·m. Returns them
 /// beside the measured ones, in a line.

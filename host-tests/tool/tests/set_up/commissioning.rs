@@ -269,12 +269,20 @@ fn what_is_kept_in_the_device_is_what_was_found_and_is_used_after_a_reset() {
 
 #[test]
 fn a_device_that_is_as_its_file_says_is_left_as_it_is() {
-    for (shipped, own) in devices() {
-        let planted = Planted::sound(shipped.plant);
-        let (findings, found) = commission(&own, planted, true, Zero::Jig);
-        println!("{}: {findings:?}", shipped.name);
-        assert_eq!(findings, Vec::<String>::new(), "{}", shipped.name);
-        assert_eq!(found.file, own.file);
+    // As they ship, and with encoders whose counts are smaller than the way a support yields.
+    for (counts, (shipped, own)) in
+        [None, Some(65_536.0)].into_iter().flat_map(|counts| devices().map(move |of| (counts, of)))
+    {
+        let mut file = own.file;
+        file.joint.iter_mut().for_each(|joint| joint.encoder.counts = counts.unwrap_or(joint.encoder.counts));
+        let own = OwnDevice::new(file, shipped.name).expect("a device");
+        let by = if matches!(own.preset, Preset::SerialArm(_)) { &[Zero::Jig, Zero::Stops][..] } else { &[Zero::Jig] };
+        for by in by {
+            let (findings, found) = commission(&own, Planted::sound(own.plant), counts.is_none(), *by);
+            println!("{}: {findings:?}", shipped.name);
+            assert_eq!(findings, Vec::<String>::new(), "{} {by:?}", shipped.name);
+            assert_eq!(found.file, own.file);
+        }
     }
 }
 
