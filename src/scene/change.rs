@@ -28,7 +28,15 @@ impl<S: Surface, const N: usize> Scene<'_, S, N> {
     ) -> Result<(), SceneError> {
         let Some(part) = state.parts.get(index) else { return Err(SceneError::Missing(saturated(index))) };
         let friction = part.friction;
-        self.check(index, [stiffness, self.stiffest_now(state, index)], damping, friction.as_ref())?;
+        let beside = self.stiffest_now(state, index);
+        let limits = self.limits();
+        self.check(index, [stiffness, beside], damping, friction.as_ref()).map_err(|error| match error {
+            SceneError::Stiffness(body) => {
+                SceneError::TooStiff { body, max_n_per_m: limits.max_stiffness_n_per_m - beside }
+            }
+            SceneError::Damping(body) => SceneError::TooDamped { body, max_n_s_per_m: limits.max_damping_n_s_per_m },
+            other => other,
+        })?;
         (state.parts[index].stiffness, state.parts[index].damping) = (stiffness, damping);
         state.switched = true;
         Ok(())

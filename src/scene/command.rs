@@ -186,6 +186,22 @@ pub enum SceneError {
     /// A body file has no modes, so nothing is uploaded in the place of a body that deforms.
     #[error("body {0}: it deforms, and a body file has no modes; build the other body in")]
     Deforms(u8),
+    /// [`crate::scene::Scene::harden`] to a stiffness out of range.
+    #[error("body {body}: the stiffness must be between 0 and {max_n_per_m} N/m, effects included")]
+    TooStiff {
+        /// Which.
+        body: u8,
+        /// The scene's limit, less the stiffness of the stiffest other body that may be touched with it, N/m.
+        max_n_per_m: f32,
+    },
+    /// The same of its damping.
+    #[error("body {body}: the damping must be between 0 and {max_n_s_per_m} N·s/m, effects included")]
+    TooDamped {
+        /// Which.
+        body: u8,
+        /// The scene's limit, N·s/m.
+        max_n_s_per_m: f32,
+    },
 }
 
 impl SceneError {
@@ -194,10 +210,10 @@ impl SceneError {
         match self {
             Self::Bodies => "a scene has 1 to 32 bodies",
             Self::Limits => "the scene's limits must be positive and finite",
-            Self::Stiffness(_) => {
+            Self::Stiffness(_) | Self::TooStiff { .. } => {
                 "the stiffness must be between 0 and the maximum, together with that of the stiffest other body"
             }
-            Self::Damping(_) => "the damping must be between 0 and the maximum",
+            Self::Damping(_) | Self::TooDamped { .. } => "the damping must be between 0 and the maximum",
             Self::Friction(_) => {
                 "friction must be finite and not negative, its dynamic coefficient not above the static one"
             }

@@ -74,6 +74,12 @@ pub enum Error {
         /// The device's reason.
         reason: Refused,
     },
+    /// The body that is built in has no memory for another one.
+    #[error("body {body} cannot be replaced: no memory for another is built in with it; upload to another body")]
+    Fixed {
+        /// Which.
+        body: u8,
+    },
     /// No answer came. It may have been done or not.
     #[error("{asked}, number {number}: no answer in {tries} tries; whether it was done is not known")]
     Lost {

@@ -3,7 +3,7 @@
 use crate::orders::{ANSWER, BUSY};
 use crate::{Device, Error, Line};
 use palpate::body::{Body, BodyBuffer, Edge, Face, FileError, FileHead};
-use palpate::scene::Command;
+use palpate::scene::{Command, SceneError};
 use palpate::wire::{CHUNK, HostMessage, Refused, Upload, UploadError};
 use std::time::Duration;
 
@@ -31,7 +31,16 @@ impl<L: Line> Device<L> {
         self.fits(file, &head, self.hello().room)?;
         self.part(Upload::Begin { bytes: file.len() as u32 }, ANSWER)?;
         self.send_file(file, progress)?;
-        self.order(Command::Take { body })
+        self.replace(body)
+    }
+
+    /// Has the body that was sent take a body's place.
+    fn replace(&mut self, body: u8) -> Result<(), Error> {
+        self.order(Command::Take { body }).map_err(|error| match error {
+            Error::Refused { reason: Refused::Command(SceneError::NotOffered), .. } => Error::Fixed { body },
+            Error::Refused { reason, .. } => Error::Refused { asked: "upload", reason },
+            error => error,
+        })
     }
 
     /// Once a person at the device has held its enable button for half a second and released it, within half a minute:
@@ -49,7 +58,7 @@ impl<L: Line> Device<L> {
         self.begin_to_keep(body, file.len() as u32)?;
         self.send_file(file, progress)?;
         self.set_kept(file.last_chunk().map_or(0, |crc| u32::from_le_bytes(*crc)));
-        self.order(Command::Take { body })
+        self.replace(body)
     }
 
     /// Erases the body stored in flash; the built-in body takes this one's place again. The motors must be off.

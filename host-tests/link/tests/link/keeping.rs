@@ -169,5 +169,8 @@ fn a_device_without_flash_and_a_body_that_stays_refuse_it() {
     let error = bare.keep(1, BOX, |_, _| ()).unwrap_err();
     assert_eq!(error.to_string(), "upload was refused by the device: this device has no flash for bodies");
     let error = device(Kind::default()).keep(0, BOX, |_, _| ()).unwrap_err();
-    assert_eq!(error.to_string(), "take was refused by the device: this surface does not support the command");
+    assert_eq!(
+        error.to_string(),
+        "body 0 cannot be replaced: no memory for another is built in with it; upload to another body"
+    );
 }

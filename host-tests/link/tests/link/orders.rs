@@ -127,8 +127,14 @@ fn what_is_out_of_range_is_refused_with_the_devices_reason() {
         (Command::Place { body: 0, pose: spun }, SceneError::Placement(0)),
         (Command::Place { body: 0, pose: at([f32::NAN, 0.0, 0.0]) }, SceneError::Placement(0)),
         (Command::Move { body: 0, velocity, angular_velocity, seconds }, SceneError::TooFast(0)),
-        (Command::Harden { body: 1, stiffness: 1e4, damping: 0.0 }, SceneError::Stiffness(1)),
-        (Command::Harden { body: 1, stiffness: 1.0, damping: -1.0 }, SceneError::Damping(1)),
+        (
+            Command::Harden { body: 1, stiffness: 1e4, damping: 0.0 },
+            SceneError::TooStiff { body: 1, max_n_per_m: 600.0 },
+        ),
+        (
+            Command::Harden { body: 1, stiffness: 1.0, damping: -1.0 },
+            SceneError::TooDamped { body: 1, max_n_s_per_m: 8.0 },
+        ),
         (Command::Rub { body: 1, friction: Some([100.0, 0.0, 0.2, 0.3]) }, SceneError::Friction(1)),
         (Command::Tip { radius: -1.0 }, SceneError::TipRadius),
         (Command::Limit { force: 100.0 }, SceneError::Force),

@@ -116,7 +116,10 @@ fn a_device_without_memory_and_a_body_that_stays_refuse_it() {
     assert_eq!(error.to_string(), "upload was refused by the device: this device has no memory for bodies");
     assert!(matches!(error, Error::Refused { reason: Refused::Upload(UploadError::NoRoom), .. }));
     let error = device(Kind::default()).upload(0, BOX, |_, _| ()).unwrap_err();
-    assert_eq!(error.to_string(), "take was refused by the device: this surface does not support the command");
+    assert_eq!(
+        error.to_string(),
+        "body 0 cannot be replaced: no memory for another is built in with it; upload to another body"
+    );
 }
 
 #[test]

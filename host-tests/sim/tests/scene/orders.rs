@@ -226,7 +226,10 @@ fn what_cannot_be_is_refused_by_its_reason() {
             SceneError::Placement(0),
         ),
         // Two at once push with both: 600 beside it.
-        (Command::Harden { body: 0, stiffness: 1_401.0, damping: 1.0 }, SceneError::Stiffness(0)),
+        (
+            Command::Harden { body: 0, stiffness: 1_401.0, damping: 1.0 },
+            SceneError::TooStiff { body: 0, max_n_per_m: 1_400.0 },
+        ),
         (Command::Rub { body: 0, friction: Some([500.0, 1.0, 0.2, 0.3]) }, SceneError::Friction(0)),
         (Command::Tip { radius: -1.0 }, SceneError::TipRadius),
         (Command::Choose { index: 32 }, SceneError::Group(32)),
@@ -240,6 +243,6 @@ fn what_cannot_be_is_refused_by_its_reason() {
     // Hardened one after the other they are still within it together.
     let harden = |body, stiffness| Command::Harden { body, stiffness, damping: 1.0 };
     assert_eq!(scene.apply(&mut state, &harden(0, 1_400.0)), Ok(()));
-    assert_eq!(scene.apply(&mut state, &harden(1, 601.0)), Err(SceneError::Stiffness(1)));
+    assert_eq!(scene.apply(&mut state, &harden(1, 601.0)), Err(SceneError::TooStiff { body: 1, max_n_per_m: 600.0 }));
     assert_eq!(scene.apply(&mut state, &harden(1, 600.0)), Ok(()));
 }

@@ -125,9 +125,12 @@ fn what_is_out_of_range_is_refused_and_changes_nothing() {
     let scene = Scene::new(LIMITS, [moving]);
     let mut state = scene.rest();
     let before = state;
-    assert_eq!(scene.harden(&mut state, 0, f32::NAN, 1.0), Err(SceneError::Stiffness(0)));
-    assert_eq!(scene.harden(&mut state, 0, 2_001.0, 1.0), Err(SceneError::Stiffness(0)));
-    assert_eq!(scene.harden(&mut state, 0, 100.0, -1.0), Err(SceneError::Damping(0)));
+    assert_eq!(scene.harden(&mut state, 0, f32::NAN, 1.0), Err(SceneError::TooStiff { body: 0, max_n_per_m: 2_000.0 }));
+    assert_eq!(scene.harden(&mut state, 0, 2_001.0, 1.0), Err(SceneError::TooStiff { body: 0, max_n_per_m: 2_000.0 }));
+    assert_eq!(
+        scene.harden(&mut state, 0, 100.0, -1.0),
+        Err(SceneError::TooDamped { body: 0, max_n_s_per_m: LIMITS.max_damping_n_s_per_m })
+    );
     assert_eq!(scene.harden(&mut state, 7, 100.0, 1.0), Err(SceneError::Missing(7)));
     assert_eq!(scene.place(&mut state, 0, Placement::IDENTITY), Err(SceneError::Placement(0)));
     assert_eq!(scene.set_tip_radius(&mut state, -1.0), Err(SceneError::TipRadius));

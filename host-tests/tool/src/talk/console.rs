@@ -105,7 +105,7 @@ impl<'a, L: Line> Console<'a, L> {
             self.write_log(&view)?;
         }
         if let Some(log) = self.log.take() {
-            writeln!(output, "{}", log.end()?)?;
+            writeln!(output, "{}", log.end(self.button.is_none())?)?;
         }
         Ok(())
     }

@@ -108,17 +108,18 @@ impl Log {
         Ok(())
     }
 
-    /// Writes the last rows; the sentence counts those that came and those that are missing.
+    /// Writes the last rows; the sentence counts those that came and those that are missing. A port may be a slow one.
     ///
     /// # Errors
     /// A file that cannot be written.
-    pub fn end(mut self) -> anyhow::Result<String> {
+    pub fn end(mut self, over_port: bool) -> anyhow::Result<String> {
         self.writer.flush()?;
         let (Self { rows, missing, rates: [_, rate], .. }, needed) = (&self, f64::from(BYTES) * self.rates[1] * 1e-3);
         let remedy = if *missing == 0 {
             String::new()
         } else {
-            format!(": {rate} Hz needs {needed:.0} kB/s; use USB or a lower --log-rate")
+            let usb = if over_port { "USB or " } else { "" };
+            format!(": {rate} Hz needs {needed:.0} kB/s; use {usb}a lower --log-rate")
         };
         Ok(format!("log: {rows} rows at {rate} Hz, {missing} missing{remedy}"))
     }
@@ -137,7 +138,7 @@ mod tests {
     type Logged = (Vec<csv::StringRecord>, String, Vec<(u32, f32, Vec3)>);
 
     /// Two seconds of a hand that presses the box, logged at 1 kHz.
-    fn logged(bytes_per_tick: u32) -> Logged {
+    fn logged(bytes_per_tick: u32, over_port: bool) -> Logged {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("log.csv");
         let line = Simulated::new(Kind { bytes_per_tick, ..Kind::default() }).unwrap();
@@ -155,7 +156,7 @@ mod tests {
             device.view(Duration::from_millis(10)).unwrap();
             log.take(&device.take_views()).unwrap();
         }
-        let said = log.end().unwrap();
+        let said = log.end(over_port).unwrap();
         let rows = csv::Reader::from_path(&path).unwrap().into_records().collect::<Result<_, _>>().unwrap();
         (rows, said, device.line().own_record())
     }
@@ -163,7 +164,7 @@ mod tests {
     #[test]
     fn a_line_as_quick_as_usb_carries_each_row_with_the_loop_s_own_values() {
         // 480 kB/s; full-speed USB carries about twice as much.
-        let (rows, said, own) = logged(120);
+        let (rows, said, own) = logged(120, true);
         println!("{said}: {} ticks", own.len());
         assert!(said.ends_with("rows at 1000 Hz, 0 missing"), "{said}");
         assert!(rows.len().abs_diff(own.len() / 4) <= 2, "{} rows of {} ticks", rows.len(), own.len());
@@ -180,8 +181,10 @@ mod tests {
 
     #[test]
     fn rows_that_a_slow_line_cannot_carry_are_counted() {
-        let (rows, said, own) = logged(12);
+        let (rows, said, own) = logged(12, true);
         println!("{said}");
+        // A simulated device has no other line.
+        assert!(logged(12, false).1.ends_with("missing: 1000 Hz needs 63 kB/s; use a lower --log-rate"));
         let missing: usize = rows.iter().map(|row| row[2].parse::<usize>().unwrap()).sum();
         assert!(
             missing > 100 && said.contains(&format!("{missing} missing: 1000 Hz needs 63 kB/s; use USB")),

@@ -52,10 +52,21 @@ fn a_line_that_is_refused_or_not_understood_ends_a_file_with_a_sentence() {
     for (line, sentence) in [
         ("place 5 0 0 0", "place was refused by the device: there is no body 5"),
         ("limit 9", "limit was refused by the device: a force must be finite and at most the scene's maximum"),
+        (
+            "harden 1 1e4 1",
+            "harden was refused by the device: body 1: the stiffness must be between 0 and 600 N/m, effects included",
+        ),
+        (
+            "harden 1 400 9",
+            "harden was refused by the device: body 1: the damping must be between 0 and 8 N·s/m, effects included",
+        ),
         ("turn 1 0 0 1 90", "the place of body 1 is unknown; place it first"),
         ("jump", "unknown command \"jump\"; `help` lists all"),
         ("place 1 0 0", "place BODY X Y Z [AX AY AZ DEGREES]: Z is missing"),
-        ("upload 0 capped_box", "take was refused by the device: this surface does not support the command"),
+        (
+            "upload 0 capped_box",
+            "body 0 cannot be replaced: no memory for another is built in with it; upload to another body",
+        ),
         ("upload 1 no-such.palp", "no-such.palp: No such file or directory (os error 2)"),
     ] {
         let (status, said, complained) = talk(&["--host"], &format!("{line}\nwho\n"));

@@ -64,7 +64,7 @@ fn a_log_of_an_emulated_board_has_the_values_of_its_ticks() {
         device.view(SILENCE).expect("a view");
         log.take(&device.take_views()).expect("rows");
     }
-    let (said, (_, probes)) = (log.end().expect("the end"), device.line().take_probes());
+    let (said, (_, probes)) = (log.end(false).expect("the end"), device.line().take_probes());
     let mut reader = csv::Reader::from_path(&path).expect("a log");
     let rows: Vec<_> = reader.records().map(|row| row.expect("a row")).collect();
     let missing: usize = rows.iter().map(|row| row[2].parse::<usize>().expect("a count")).sum();
