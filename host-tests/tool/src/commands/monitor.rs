@@ -18,7 +18,7 @@ use std::time::{Duration, Instant};
 /// Shows rate, jitter, phase, force and faults of a running device, and records them.
 ///
 /// On a terminal one line is updated in place; elsewhere a line is printed every second and at each change of phase or
-/// fault. Ends when the line is closed, after --for seconds, or with Ctrl-C.
+/// fault. Ends when the line is closed, --for seconds after the first record, or with Ctrl-C.
 #[derive(Args, Debug)]
 // The scene is the emulated board's alone: a device at a port has its own.
 #[command(mut_group("SceneOptions", |scene| scene.conflicts_with("port")))]
@@ -30,7 +30,7 @@ pub struct Arguments {
     /// File for the raw bytes of the line
     #[arg(long, value_name = "OUT")]
     raw: Option<PathBuf>,
-    /// Time after which it stops, s; default: when the line closes
+    /// Time after the first record at which it stops, s; default: when the line closes
     #[arg(long = "for", value_name = "SECONDS")]
     ends_after: Option<f64>,
     /// Serial port of the device, such as /dev/ttyACM0
@@ -139,6 +139,7 @@ struct View {
     table: Option<Table>,
     raw: Option<File>,
     refreshes: bool,
+    /// When the line was opened, then when the first record came: an image is built before, and a board starts.
     start: Instant,
     ends_after: Option<Duration>,
     shown: Option<(Instant, u8, u8)>,
@@ -163,6 +164,7 @@ impl View {
     /// Reads until the line closes or the time is over.
     fn watch(&mut self, line: &mut impl Read) -> anyhow::Result<()> {
         let mut buffer = [0; 4096];
+        self.start = Instant::now();
         while self.ends_after.is_none_or(|end| self.start.elapsed() < end) {
             let bytes = match line.read(&mut buffer) {
                 Ok(0) => return Ok(()),
@@ -192,6 +194,9 @@ impl View {
     }
 
     fn take(&mut self, figures: &Figures) -> anyhow::Result<()> {
+        if self.monitor.records == 1 {
+            self.start = Instant::now();
+        }
         if let Some(table) = &mut self.table {
             table.write(figures)?;
         }
@@ -258,8 +263,12 @@ impl View {
 
 #[cfg(test)]
 mod tests {
-    use super::Arguments;
-    use clap::{Args as _, Command};
+    use super::{Arguments, View};
+    use clap::{Args as _, Command, FromArgMatches as _};
+    use palpate::wire::frame::{MAX_FRAME, pack};
+    use palpate::wire::{DeviceMessage, Record};
+    use std::io::{self, Read};
+    use std::time::{Duration, Instant};
 
     fn is_taken(line: &str) -> bool {
         Arguments::augment_args(Command::new("monitor")).try_get_matches_from(line.split(' ')).is_ok()
@@ -282,6 +291,46 @@ mod tests {
         ] {
             assert!(!is_taken(line), "{line}");
         }
+    }
+
+    /// A record every 10 ms, once a board has started.
+    struct Starting {
+        until: Option<Instant>,
+        number: u32,
+    }
+
+    impl Read for Starting {
+        fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+            std::thread::sleep(Duration::from_millis(10));
+            if self.until.is_none_or(|until| Instant::now() < until) {
+                return Err(io::ErrorKind::TimedOut.into());
+            }
+            self.number += 1;
+            let record = Record { tick: self.number, number: self.number, clock: 1_000, ..Record::default() };
+            let mut frame = [0; MAX_FRAME];
+            let frame = pack(&DeviceMessage::Record(record), &mut frame).expect("a frame");
+            buffer[..frame.len()].copy_from_slice(frame);
+            Ok(frame.len())
+        }
+    }
+
+    #[test]
+    fn the_time_of_watching_starts_with_the_first_record_and_ends_without_one() {
+        let line = "monitor --port none --for 0.5";
+        let matches = Arguments::augment_args(Command::new("monitor")).get_matches_from(line.split(' '));
+        let arguments = Arguments::from_arg_matches(&matches).expect("arguments");
+        let begun = Instant::now();
+        let mut silent = View::new(&arguments).expect("a view");
+        silent.watch(&mut Starting { until: None, number: 0 }).expect("it ends");
+        assert!(begun.elapsed() >= Duration::from_millis(500) && silent.monitor.records == 0);
+        // Made before the image is built, and the board starts for most of the time.
+        let mut view = View::new(&arguments).expect("a view");
+        std::thread::sleep(Duration::from_millis(600));
+        let mut board = Starting { until: Some(Instant::now() + Duration::from_millis(400)), number: 0 };
+        view.watch(&mut board).expect("it ends");
+        // The first frame is that in which a listener gets into step.
+        let since = board.until.expect("a start").elapsed();
+        assert!(since >= Duration::from_millis(500) && view.monitor.records > 0, "{since:?}");
     }
 
     #[test]
