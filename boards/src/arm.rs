@@ -2,7 +2,7 @@
 //! commands the scene must not fall silent: set `Safety::link_timeout_s`.
 
 use palpate::device::drive::Feed;
-use palpate::device::{Device, Homing, Kinematics, Protection, Reference};
+use palpate::device::{Device, Homing, Kinematics, Protection, Reference, SupplyRange};
 use palpate::scene::{BodyStore, Limits, Material, Motion, Part, Scene, Slot};
 use palpate::servo::{Config, Guarded, Rendering, Safety, Servo, Settings, Surface};
 use palpate::track::Placement;
@@ -53,6 +53,23 @@ pub const fn check_feeds<K>(device: &Device<K, 3>, has_bridges: bool) {
             }
             _ => joint += 1,
         }
+    }
+}
+
+/// That the bridges' supply of a device is one at which its board drives them.
+///
+/// # Panics
+/// At compile time, if not.
+pub const fn check_supply<K>(device: &Device<K, 3>, within: Option<SupplyRange>) {
+    let Some(within) = within else { return };
+    let mut joint = 0;
+    while joint < 3 {
+        if let Feed::Voltage(feed) = &device.feeds[joint]
+            && !(feed.supply_v * 1e3 >= within.min_mv as f32 && feed.supply_v * 1e3 <= within.max_mv as f32)
+        {
+            panic!("the supply of the device's bridges is outside of BENCH.supply: change that in src/set_up.rs")
+        }
+        joint += 1;
     }
 }
 

@@ -105,7 +105,7 @@ mod uploads;
 pub mod usb;
 mod writing;
 
-pub use arm::{ArmServo, OneSlot, arm_servo, check_feeds, one_slot};
+pub use arm::{ArmServo, OneSlot, arm_servo, check_feeds, check_supply, one_slot};
 pub(crate) use bench_loop::State;
 pub use bench_loop::{Bench, Felt};
 pub use board::{Board, NotObeyed, Panel, Passive};

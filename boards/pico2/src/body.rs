@@ -13,7 +13,7 @@ use palpate_bench::Offers;
 use palpate_bench::{OneSlot, one_slot, store::RamStore};
 
 /// The device: this board's own, or that of `--device`.
-mod own {
+pub mod own {
     include!(env!("PALPATE_DEVICE_FILE"));
 }
 

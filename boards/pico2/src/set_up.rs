@@ -21,7 +21,7 @@ use rp235x_hal::spi::Spi;
 use rp235x_hal::uart::{DataBits, StopBits, UartConfig, UartPeripheral};
 use rp235x_hal::{Sio, Watchdog};
 
-use crate::body::{RATE_HZ, SETTINGS, This};
+use crate::body::{RATE_HZ, SETTINGS, This, own};
 use crate::bus;
 use crate::chip::{CLOCK, CRYSTAL};
 use crate::ring::Ring;
@@ -36,6 +36,8 @@ pub const BENCH: Settings = Settings {
     ticks_per_record: RATE_HZ / RECORDS_HZ,
     ..Settings::new(CLOCK)
 };
+
+const _: () = palpate_bench::check_supply(&own::DEVICE, BENCH.supply);
 
 /// Ticks from one reading of a sensor to its next.
 const ROUND: u32 = ticks_per_round(3, SETTINGS.rate_hz);

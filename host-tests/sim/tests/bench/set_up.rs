@@ -4,12 +4,12 @@
 use palpate::commission::{Jog, JogRefusal, KEY};
 use palpate::device::drive::{Feed, VoltageFeed};
 use palpate::device::presets::{WOODEN_HAPTICS_2016, WOODEN_HAPTICS_2016_PROTECTION};
-use palpate::device::{Endurance, Protection, SerialArm};
+use palpate::device::{Endurance, Protection, SerialArm, SupplyRange};
 use palpate::patch::SplinePatch;
 use palpate::servo::{Config, Fault, Guard, Heartbeat, Phase, ResetReason, SafeOutput, Safety, Servo, Unguarded};
 use palpate::wire::frame::{MAX_FRAME, Received, Receiver, pack};
 use palpate::wire::{DeviceMessage, HostMessage, PROTOCOL, Reading, hold};
-use palpate_bench::{Idle, Settings};
+use palpate_bench::{Idle, Settings, check_supply};
 use palpate_sim::rig::{RATE, Rig, SETTINGS, WALL, World, held_at, settings};
 use palpate_sim::simulated::{NoWatchdog, Wire};
 use rand::{Rng, SeedableRng};
@@ -174,6 +174,12 @@ fn a_bridge_that_gives_a_voltage_is_told_the_voltage_of_the_duty() {
     };
     static FED: OnceLock<palpate::device::Device<SerialArm, 3>> = OnceLock::new();
     let feeds = [voltage(0.711), Feed::Current, voltage(2.0)];
+    let within = |min_mv, max_mv| {
+        let device = palpate::device::Device { feeds, ..WOODEN_HAPTICS_2016 };
+        std::panic::catch_unwind(|| check_supply(&device, Some(SupplyRange { min_mv, max_mv }))).is_ok()
+    };
+    let ranges = [(20_000, 30_000), (24_000, 24_000), (10_000, 23_000), (25_000, 30_000)];
+    assert_eq!(ranges.map(|(least, most)| within(least, most)), [true, true, false, false], "24 V");
     let fed = FED.get_or_init(|| palpate::device::Device { feeds, ..WOODEN_HAPTICS_2016 });
     let servo = Servo::new(fed, &WALL, Config { settings: SETTINGS, ..Config::DEFAULT });
     let mut device = Device::of(servo, ResetReason::PowerOn, &settings()).set_up();

@@ -10,9 +10,12 @@ use crate::{devices, repository};
 use anyhow::{Context, ensure};
 use clap::Args;
 use glam::DVec3;
+use palpate::device::Encoder;
 use palpate::math::Vec3;
-use palpate::servo::Settings;
-use palpate_sim::devices::{DeviceFile, JointEntry, OwnDevice, settings_source, source};
+use palpate::servo::{FrameBridge, Settings};
+use palpate_bench::sensors::{max_step, ticks_per_round};
+use palpate_sim::devices::{DeviceFile, HomingEntry, JointEntry, OwnDevice, settings_source, source};
+use std::f64::consts::TAU;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
@@ -51,6 +54,8 @@ pub struct Arguments {
 /// The cause, for the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let progress = Progress::new();
+    let device = arguments.device.as_deref().map(|device| constants(arguments.board, device, arguments.rate));
+    let device = device.transpose()?;
     let chosen = match &arguments.body {
         None => None,
         Some(model) => Some(chosen(arguments.board, arguments.kind(), model, arguments.at)?),
@@ -68,8 +73,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         choose_body(&mut command, Some((file, *place)))?;
         command.env("PALPATE_ORIGIN", origin.to_array().map(|metres| format!("{metres:?}")).join(","));
     }
-    if let Some(device) = &arguments.device {
-        let (variable, file) = constants(arguments.board, device)?;
+    if let Some((variable, file)) = device {
         command.env(variable, file);
     }
     let is_bench = matches!(arguments.board, AnyBoard::Bench(_));
@@ -203,12 +207,19 @@ fn reaches(device: Option<&Path>, model: &Path, origin: Vec3) -> anyhow::Result<
 }
 
 /// The constants of a device for a board's build, and the variable that names their file.
-fn constants(board: AnyBoard, device: &Path) -> anyhow::Result<(&'static str, PathBuf)> {
+fn constants(board: AnyBoard, device: &Path, rate: Option<u32>) -> anyhow::Result<(&'static str, PathBuf)> {
     let own = devices::own(device)?;
     let (variable, source) = match board {
-        AnyBoard::Emulated(_) => ("PALPATE_SETTINGS", settings_source(&own, RATE)),
+        AnyBoard::Emulated(_) => {
+            ensure!(
+                own.file.homing != HomingEntry::Index,
+                "{}: homing = \"index\": emulated boards have no index marks: homing = \"pose\", or --board stm32g4",
+                device.display()
+            );
+            ("PALPATE_SETTINGS", settings_source(&own, RATE))
+        }
         AnyBoard::Bench(board) => {
-            suits(board, &own.file).with_context(|| device.display().to_string())?;
+            suits(board, &own.file, rate.unwrap_or(4_000)).with_context(|| device.display().to_string())?;
             ("PALPATE_DEVICE", source(&own, &device.to_string_lossy()))
         }
     };
@@ -227,9 +238,50 @@ fn inside(own: &OwnDevice, rate: Option<u32>) -> String {
     )
 }
 
-/// Whether a board has the sensors and the motor stages that a device file says.
-fn suits(board: BenchBoard, file: &DeviceFile) -> anyhow::Result<()> {
-    for JointEntry { name, encoder, motor, .. } in &file.joint {
+/// Whether a board has the sensors and the motor stages that a device file says, in a loop of `rate`, Hz.
+fn suits(board: BenchBoard, file: &DeviceFile, rate: u32) -> anyhow::Result<()> {
+    let (knows_angles, name) = (board.sensor_counts().is_some(), board.name());
+    ensure!(
+        file.homing != HomingEntry::Index || !knows_angles,
+        "homing = \"index\": {name} reads angle sensors, which have no index mark: homing = \"pose\", or --board stm32g4"
+    );
+    ensure!(
+        file.homing != HomingEntry::None || knows_angles,
+        "homing = \"none\": {name} counts quadrature encoders from 0 after each reset, wherever the joint is: \
+         homing = \"pose\" or \"index\""
+    );
+    let round = if knows_angles { ticks_per_round(3, rate as f32) } else { 1 };
+    for JointEntry { name, encoder, motor, range: [least, most], .. } in &file.joint {
+        // The angle in a turn of the sensor's shaft, from its count 0 on.
+        let (turn, zero) = (TAU / encoder.ratio, encoder.zero);
+        ensure!(
+            file.homing != HomingEntry::None || (zero.min(zero + turn) <= *least && *most <= zero.max(zero + turn)),
+            "joint {name}: homing = \"none\": after a reset its sensor knows one turn of its shaft, from zero = {zero} rad on \
+             {turn:.2} rad of the joint, and its range is {least} to {most}: {}",
+            if most - least > turn.abs() {
+                "homing = \"pose\", or a sensor on the joint".to_owned()
+            } else {
+                format!(
+                    "turn its magnet until its count 0 is outside of that, and set zero, first to {}",
+                    if turn > 0.0 { least } else { most }
+                )
+            }
+        );
+        let step = max_step(
+            &Encoder::geared(encoder.counts as f32, encoder.ratio as f32, 0.0),
+            file.limits.max_joint_rate as f32,
+            rate as f32,
+            FrameBridge::<3>::DEFAULT_IN_A_ROW + round - 1,
+        );
+        let half = 1 << (board.counter_bits() - 1);
+        ensure!(
+            step < half,
+            "limits.max_joint_rate = {}: joint {name} may then pass {step} counts between two good readings, and {} tells \
+             {half} at most from the way back: lower it below {:.0} rad/s",
+            file.limits.max_joint_rate,
+            board.name(),
+            file.limits.max_joint_rate * f64::from(half - 2) / f64::from(step)
+        );
         if let Some(counts) = board.sensor_counts() {
             ensure!(
                 encoder.counts == counts,
@@ -311,7 +363,8 @@ mod tests {
             file
         };
         let bridge = Some(BridgeEntry { supply: 24.0, resistance: 0.7, back_emf_share: 0.8 });
-        let takes = |board, counts, bridge| suits(board, &with(counts, bridge)).map_err(|error| error.to_string());
+        let takes =
+            |board, counts, bridge| suits(board, &with(counts, bridge), 4_000).map_err(|error| error.to_string());
         for (board, counts, bridge) in [
             (BenchBoard::Stm32g4, 2_000.0, None),
             (BenchBoard::Teensy41, 16_384.0, None),
@@ -327,6 +380,67 @@ mod tests {
         ] {
             let error = takes(board, counts, bridge).expect_err("a device that the board does not bear");
             assert!(error.contains(culprit), "{error}");
+        }
+    }
+
+    #[test]
+    fn a_board_takes_the_homing_and_the_rates_that_its_inputs_bear() {
+        let bridge = Some(BridgeEntry { supply: 24.0, resistance: 0.7, back_emf_share: 0.8 });
+        let takes = |board: BenchBoard, homing, change: fn(&mut DeviceFile)| {
+            let mut file = named("woodenhaptics-2016").and_then(|device| device.file()).expect("a file");
+            file.homing = homing;
+            for joint in &mut file.joint {
+                joint.encoder.counts = board.sensor_counts().unwrap_or(joint.encoder.counts);
+                joint.motor.bridge = bridge.filter(|_| board.has_bridges());
+            }
+            change(&mut file);
+            suits(board, &file, 4_000).map_err(|error| error.to_string())
+        };
+        // Its shafts make a turn in 22 degrees of a joint; sensors on the joints make one turn.
+        let as_shipped: fn(&mut DeviceFile) = |_| ();
+        let on_joints: fn(&mut DeviceFile) = |file| {
+            for (joint, sign) in file.joint.iter_mut().zip([1.0, -1.0, 1.0]) {
+                joint.encoder.ratio = sign;
+                joint.encoder.zero = if sign > 0.0 { joint.range[0] - 1.0 } else { joint.range[1] + 1.0 };
+            }
+        };
+        for board in BenchBoard::ALL {
+            let knows_angles = board.sensor_counts().is_some();
+            assert_eq!(takes(board, HomingEntry::Pose, as_shipped), Ok(()));
+            assert_eq!(takes(board, HomingEntry::Index, as_shipped).is_ok(), !knows_angles);
+            assert_eq!(takes(board, HomingEntry::None, on_joints).is_ok(), knows_angles);
+            assert!(takes(board, HomingEntry::None, as_shipped).is_err());
+        }
+        for (board, homing, change, says) in [
+            (BenchBoard::Pico2, HomingEntry::Index, as_shipped, "homing = \"index\": pico2 reads angle sensors"),
+            (
+                BenchBoard::Stm32g4,
+                HomingEntry::None,
+                on_joints,
+                "homing = \"none\": stm32g4 counts quadrature encoders",
+            ),
+            (
+                BenchBoard::Teensy41,
+                HomingEntry::None,
+                as_shipped,
+                "joint a: homing = \"none\": after a reset its sensor",
+            ),
+            (
+                BenchBoard::Teensy41,
+                HomingEntry::None,
+                |file| file.joint.iter_mut().for_each(|joint| joint.encoder.ratio = -1.0),
+                "its range is -1.6 to 1.6: turn its magnet until its count 0 is outside of that, and set zero, first to 1.6",
+            ),
+            (
+                BenchBoard::Pico2,
+                HomingEntry::Pose,
+                |file| file.limits.max_joint_rate = 1_000.0,
+                "limits.max_joint_rate = 1000: joint a may then pass 31293 counts between two good readings, and pico2 tells 8192",
+            ),
+        ] {
+            let error = takes(board, homing, change).expect_err(says);
+            println!("{error}");
+            assert!(error.contains(says), "{error}");
         }
     }
 }

@@ -144,6 +144,14 @@ impl BenchBoard {
         }
     }
 
+    /// Bits of the counter or angle that it counts on over its wrap.
+    pub const fn counter_bits(self) -> u32 {
+        match self {
+            Self::Stm32g4 => 16,
+            Self::Pico2 | Self::Teensy41 => 14,
+        }
+    }
+
     /// Whether it drives bridges that give a voltage, not amplifiers that control the current.
     pub const fn has_bridges(self) -> bool {
         matches!(self, Self::Pico2)
