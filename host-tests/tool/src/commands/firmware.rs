@@ -85,8 +85,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         command.env("PALPATE_RATE", rate.to_string());
     }
     command.current_dir(arguments.board.folder()?);
-    let is_build = arguments.accepts() || arguments.cargo[0] == "build";
-    let status = if is_build { long_calls::build(&mut command) } else { command.status() };
+    // A flasher shows its progress on a terminal.
+    let status = if arguments.cargo[0] == "run" { command.status() } else { long_calls::build(&mut command) };
     let status = status.with_context(|| format!("{command:?}"))?;
     if !status.success() {
         return Ok(ExitCode::FAILURE);

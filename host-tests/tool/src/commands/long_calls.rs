@@ -4,7 +4,7 @@
 use std::io::{self, BufRead, BufReader, Write};
 use std::process::{Command, ExitStatus, Stdio};
 
-/// Runs a build and passes on all that it reports but this warning and cargo's counts of warnings.
+/// Runs cargo and passes on all that it reports but this warning and cargo's counts of warnings.
 ///
 /// # Errors
 /// If the command does not start, or standard error cannot be written.
