@@ -153,9 +153,9 @@ impl Failure {
         self.test.starts_with("test_")
     }
 
-    /// Whether it is one of magnetic sensors on a bus.
-    pub fn is_magnetic(&self) -> bool {
-        matches!(self.shown, Shown::Planted(Setting::Magnetic, _))
+    /// Whether it is one of sensors on a bus, whose readings come in frames; a counter of pulses is always there.
+    pub fn is_of_frames(&self) -> bool {
+        matches!(self.shown, Shown::Planted(Setting::Magnetic, _)) || self.failure.contains("frame")
     }
 
     /// Why this device need not detect it.

@@ -28,7 +28,7 @@ pub(super) const TABLE: &[Failure] = &[
     row(
         [
             "sensor",
-            "no frame comes",
+            "no frame of a sensor on a bus comes",
             "third in a row",
             "two_bad_frames_in_a_row_are_bridged_and_counted_and_the_third_is_the_fault_in_its_own_tick",
         ],
@@ -39,7 +39,7 @@ pub(super) const TABLE: &[Failure] = &[
     row(
         [
             "sensor",
-            "every frame is damaged",
+            "every frame of a sensor on a bus is damaged",
             "third in a row",
             "two_bad_frames_in_a_row_are_bridged_and_counted_and_the_third_is_the_fault_in_its_own_tick",
         ],
@@ -50,7 +50,7 @@ pub(super) const TABLE: &[Failure] = &[
     row(
         [
             "sensor",
-            "two of three frames are damaged",
+            "two of three frames of a sensor on a bus are damaged",
             "more than 1 % of frames",
             "more_than_one_bad_frame_in_a_hundred_is_a_fault_though_no_three_come_in_a_row",
         ],
