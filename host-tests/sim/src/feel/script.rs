@@ -138,7 +138,7 @@ impl Stage {
         let from = arrived.end();
         let path = arrived.at_speed(self.at(depth, 0.003), 0.001);
         let until = path.end();
-        Script { name: "verge of slipping".into(), deed: Deed::Verge, path, looked_at: [from, until] }
+        Script { name: "stick-slip on wood".into(), deed: Deed::Verge, path, looked_at: [from, until] }
     }
 
     fn hover(&self) -> Script {
