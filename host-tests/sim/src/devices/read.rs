@@ -107,7 +107,7 @@ impl OwnDevice {
     pub fn new(file: DeviceFile, label: &str) -> Result<Self, DeviceFileError> {
         let refuse = |entry: &str, reason: &str| DeviceFileError::Entry {
             file: label.to_owned(),
-            entry: entry.to_owned(),
+            entry: file.by_name(&format!("{entry}:")).trim_end_matches(':').to_owned(),
             reason: reason.to_owned(),
         };
         check(&file, refuse)?;
@@ -144,7 +144,9 @@ impl OwnDevice {
                     ));
                 }
             };
-            return Err(refuse(&entry, &error.to_string()));
+            // The joint stands before it.
+            let text = error.to_string();
+            return Err(refuse(&entry, text.split_once(": ").map_or(&*text, |(_, reason)| reason)));
         }
         let protection = protection(&file);
         #[cfg(feature = "std")]

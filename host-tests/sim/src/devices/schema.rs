@@ -1,5 +1,7 @@
 //! The schema of a `device.toml`: see `docs/reference/device-format.md`. SI units throughout.
 
+use alloc::borrow::ToOwned as _;
+use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
@@ -19,6 +21,18 @@ pub struct DeviceFile {
     pub limits: LimitsEntry,
     /// Its three joints, in the mechanism's order.
     pub joint: Vec<JointEntry>,
+}
+
+impl DeviceFile {
+    /// The message, which may start with "joint 1:", with that joint's name, if no other has the same.
+    pub fn by_name(&self, message: &str) -> String {
+        let joint = message.strip_prefix("joint ").and_then(|rest| rest.split_once(':')).and_then(|(number, rest)| {
+            let JointEntry { name, .. } = self.joint.get(number.parse::<usize>().ok()?)?;
+            let is_own = !name.is_empty() && self.joint.iter().filter(|joint| joint.name == *name).count() == 1;
+            is_own.then(|| format!("joint {name}:{rest}"))
+        });
+        joint.unwrap_or_else(|| message.to_owned())
+    }
 }
 
 /// By what a board finds where the joints are: what the encoders' zeroes are the angles of.

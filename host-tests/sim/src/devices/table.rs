@@ -23,14 +23,19 @@ pub struct ShippedDevice {
     /// Path of the preset in the palpate library: its mechanism's type and its constant, for the source file of an
     /// image. `None` with less than three joints.
     pub source: Option<[&'static str; 2]>,
-    /// Source of the constants and protection of the user's own device; `None` for a shipped one.
-    pub constants: Option<(&'static str, Protection<3>)>,
+    /// Source of the constants, protection and names of the joints of the user's own device; `None` for a shipped one.
+    pub constants: Option<(&'static str, Protection<3>, [&'static str; 3])>,
 }
 
 impl ShippedDevice {
     /// Its device file, a starting point for the user's own; `None` with less than three joints.
     pub fn file(&self) -> Option<DeviceFile> {
         file_of(self.name, self.preset, &self.plant)
+    }
+
+    /// The names of its joints.
+    pub fn joint_names(&self) -> [&'static str; 3] {
+        self.constants.map_or(["a", "b", "c"], |(.., names)| names)
     }
 
     /// Recommended settings: the hand feels the surface and not the loop.
@@ -51,7 +56,7 @@ impl ShippedDevice {
 
     /// Its protection.
     pub fn protection(&self) -> Protection<3> {
-        self.constants.map_or_else(|| protection_of(self.name), |(_, protection)| protection)
+        self.constants.map_or_else(|| protection_of(self.name), |(_, protection, _)| protection)
     }
 }
 
@@ -134,14 +139,16 @@ pub fn own_device(own: &OwnDevice, from: &str) -> &'static ShippedDevice {
         Preset::Delta(_) => "Delta",
         _ => "SerialArm",
     };
+    let leaked = |text: String| -> &'static str { Box::leak(text.into_boxed_str()) };
+    let names = core::array::from_fn(|joint| leaked(own.file.joint[joint].name.clone()));
     Box::leak(Box::new(ShippedDevice {
-        name: Box::leak(own.file.name.clone().into_boxed_str()),
+        name: leaked(own.file.name.clone()),
         about: "one's own",
         preset: own.preset,
         plant: own.plant,
-        assumed: Box::leak(super::plant::remark(own).into_boxed_str()),
+        assumed: leaked(super::plant::remark(own)),
         source: Some([mechanism, "DEVICE"]),
-        constants: Some((Box::leak(super::source(own, from).into_boxed_str()), own.protection)),
+        constants: Some((leaked(super::source(own, from)), own.protection, names)),
     }))
 }
 

@@ -62,32 +62,32 @@ fn the_constants_say_by_what_the_joints_are_homed() {
 #[test]
 fn a_bad_file_is_refused_by_its_entry() {
     for (good, bad, entry) in [
-        ("counts = 2000.0", "counts = 0.0", "joint 0: encoder.counts"),
-        ("counts = 2000.0", "counts = nan", "joint 0: encoder.counts"),
+        ("counts = 2000.0", "counts = 0.0", "joint a: encoder.counts"),
+        ("counts = 2000.0", "counts = nan", "joint a: encoder.counts"),
         ("counts = 2000.0", "count = 2000.0", "unknown field `count`"),
-        ("ratio = -16.0", "ratio = 0.0", "joint 0: encoder"),
+        ("ratio = -16.0", "ratio = 0.0", "joint a: encoder"),
         ("first_link = 0.205", "first_link = -0.205", "mechanism.first_link"),
         ("first_link = 0.205", "first_link = 205.0", "mechanism.first_link"),
         ("workspace_centre = [0.22, 0.0, 0.08]", "workspace_centre = [0.9, 0.0, 0.08]", "mechanism.workspace_centre"),
         // 9.81 m/s² · 50 kg · 0.245 m, and 0.0259 N·m/A · 3 A · 12.
-        ("0.04085714]", "50.0]", "joint 2: gravity compensation takes 120.17 N·m, and its motor holds 0.93 N·m"),
-        ("[0.15229268,", "[-5.0,", "joint 1: gravity compensation takes 10.06 N·m"),
+        ("0.04085714]", "50.0]", "joint c: gravity compensation takes 120.17 N·m, and its motor holds 0.93 N·m"),
+        ("[0.15229268,", "[-5.0,", "joint b: gravity compensation takes 10.06 N·m"),
         ("range = [-1.6, 1.6]", "range = [0.5, 1.6]", "mechanism.workspace_centre: needs joint a at 0.00 rad"),
-        ("range = [-1.6, 1.6]", "range = [1.6, -1.6]", "joint 0: range"),
-        ("channel = 1", "channel = 0", "joint 1: channel"),
+        ("range = [-1.6, 1.6]", "range = [1.6, -1.6]", "joint a: range"),
+        ("channel = 1", "channel = 0", "joint b: channel"),
         ("max_force = 5.0", "max_force = -5.0", "limits"),
         ("kind = \"serial-arm\"", "kind = \"octopus\"", "unknown variant `octopus`"),
-        ("time_constant = 16.0", "time_constant = 0.0", "joint 0: motor.time_constant"),
+        ("time_constant = 16.0", "time_constant = 0.0", "joint a: motor.time_constant"),
         ("max_force = 5.0\n", "", "missing field `max_force`"),
         ("name = \"woodenhaptics-2016\"", "name = \"a b\"", "name: must be"),
         ("second_link = ", "second_link = \"180 mm\" # ", "line 8: second_link: invalid type: string"),
         ("end_masses = [", "end_masses = [0.1] # [", "the section [mechanism] of line 4: invalid length 1"),
         ("max_joint_rate = ", "# ", "the section [limits] of line 12: missing field `max_joint_rate`"),
-        ("torque_constant = 0.0259", "torque_constant = 25.9", "joint 0: motor.torque_constant: 25.9 is no"),
-        ("current_at_full = 3.0", "current_at_full = 3000.0", "joint 0: motor.current_at_full: 3000 is no"),
-        ("torque_constant = 0.0259", "torque_constant = 4.9", "joint 0: motor: torque_constant times current_at_full"),
-        ("range = [-1.6, 1.6]", "range = [-92.0, 92.0]", "joint 0: range: -92 is no haptic device's: it is in radians"),
-        ("friction = ", "friction = 12", "joint 0: friction: 12"),
+        ("torque_constant = 0.0259", "torque_constant = 25.9", "joint a: motor.torque_constant: 25.9 is no"),
+        ("current_at_full = 3.0", "current_at_full = 3000.0", "joint a: motor.current_at_full: 3000 is no"),
+        ("torque_constant = 0.0259", "torque_constant = 4.9", "joint a: motor: torque_constant times current_at_full"),
+        ("range = [-1.6, 1.6]", "range = [-92.0, 92.0]", "joint a: range: -92 is no haptic device's: it is in radians"),
+        ("friction = ", "friction = 12", "joint a: friction: 12"),
         ("max_stiffness = ", "max_stiffness = 1.0 # ", "limits.max_stiffness: must be at least 10 N/m"),
         ("max_force = 5.0", "max_force = 5000.0", "limits.max_force: 5000 is no"),
     ] {
@@ -96,5 +96,11 @@ fn a_bad_file_is_refused_by_its_entry() {
         let error = OwnDevice::parse(&spoilt, "my.toml").expect_err(bad).to_string();
         assert!(error.starts_with("my.toml: ") && error.contains(entry), "{bad}: {error}");
         assert!(!error.contains('\n'), "one sentence: {error}");
+    }
+    // By its name where it has one of its own.
+    for (name, entry) in [("name = \"shoulder\"", "joint shoulder: channel"), ("name = \"a\"", "joint 1: channel")] {
+        let spoilt = text().replacen("channel = 1", "channel = 0", 1).replacen("name = \"b\"", name, 1);
+        let error = OwnDevice::parse(&spoilt, "my.toml").expect_err(name).to_string();
+        assert!(error.contains(entry), "{error}");
     }
 }

@@ -98,9 +98,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         bail!("emulated boards have no index marks; use --port or --host");
     }
     let mut lab = lab(arguments, &own)?;
-    say_calibration(&lab.device);
+    say_calibration(&lab.device, &own.file);
     if arguments.forget {
-        keep(&mut lab, None)?;
+        keep(&mut lab, &own.file, None)?;
         return Ok(ExitCode::SUCCESS);
     }
     if let Some(seconds) = arguments.watch {
@@ -127,7 +127,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     }
     println!("written to {}", out.display());
     if arguments.keep {
-        keep(&mut lab, Some(calibration(&found).context("a device of less than three joints")?))?;
+        keep(&mut lab, &own.file, Some(calibration(&found).context("a device of less than three joints")?))?;
     }
     Ok(ExitCode::SUCCESS)
 }
@@ -159,26 +159,30 @@ fn record_cogging(arguments: &Arguments) -> anyhow::Result<ExitCode> {
 }
 
 /// Says what the device uses since its last reset.
-fn say_calibration(device: &Device) {
+fn say_calibration(device: &Device, file: &DeviceFile) {
     match device.calibrated() {
         None => println!("the device keeps no calibration"),
         Some(Calibrated::BuiltIn) => println!("the device is what it was built with: no calibration is stored"),
         Some(Calibrated::Kept { crc }) => println!("the device uses the calibration that it keeps, CRC {crc:08x}"),
-        Some(Calibrated::Refused(error)) => println!("the device keeps its motors off: {error}"),
+        Some(Calibrated::Refused(error)) => {
+            println!("the device keeps its motors off: {}", file.by_name(&error.to_string()))
+        }
     }
 }
 
 /// Has a calibration kept in the device's flash, or forgotten. A simulated device is reset, to see that it is used.
-fn keep(lab: &mut Lab, found: Option<Calibration<3>>) -> anyhow::Result<()> {
+fn keep(lab: &mut Lab, file: &DeviceFile, found: Option<Calibration<3>>) -> anyhow::Result<()> {
     lab.hands.enable(false)?;
-    lab.device.keep(found.map(|found| found.0)).context("the device's flash is unchanged, or empty")?;
+    let kept = lab.device.keep(found.map(|found| found.0));
+    kept.map_err(|error| anyhow::anyhow!("{}", file.by_name(&error.to_string())))
+        .context("the device's flash is unchanged, or empty")?;
     match found {
         Some(found) => println!("saved in the device's flash, CRC {:08x}; used after the next reset", found.crc()),
         None => println!("forgotten: from the next reset on the device is what it was built with"),
     }
     if lab.device.reset()? {
         print!("after a reset ");
-        say_calibration(&lab.device);
+        say_calibration(&lab.device, file);
     }
     Ok(())
 }

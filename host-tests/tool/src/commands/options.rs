@@ -467,7 +467,7 @@ impl Scene {
     pub fn withheld(&self, trace: &Trace) -> Option<(&'static str, String)> {
         let last = self.withheld_until(trace)?;
         let asked = f64::from(self.enable_at) / trace.rate;
-        let each = trace.confirmed?.into_iter().zip(["a", "b", "c"]).map(|(when, joint)| match when {
+        let each = trace.confirmed?.into_iter().zip(self.device.joint_names()).map(|(when, joint)| match when {
             Some(when) => format!("{joint} confirmed after {:.2} s", when - asked),
             None => format!("{joint} not confirmed"),
         });
@@ -514,7 +514,7 @@ impl Scene {
              /// Each joint on the input and the output of its number.\n\
              pub const WIRING: palpate::commission::Wiring<3> = palpate::commission::Wiring::STRAIGHT;"
         );
-        let constants = self.device.constants.map_or(shipped.as_str(), |(source, _)| source);
+        let constants = self.device.constants.map_or(shipped.as_str(), |(source, ..)| source);
         let wrist = self.tool.map_or_else(String::new, |_| shaped::wrist_source());
         format!(
             "{constants}\n{wrist}/// The loop's settings.\npub const SETTINGS: palpate::servo::Settings = palpate::servo::Settings {{\n    \

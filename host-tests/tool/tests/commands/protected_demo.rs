@@ -1,6 +1,7 @@
 //! The demo with all protection is rendered, and raises no alarm.
 
 use clap::Parser;
+use palpate_sim::devices::named;
 use palpate_tool::commands::options::SceneOptions;
 use palpate_tool::commands::sim::run_on_host;
 use palpate_tool::report::Summary;
@@ -62,8 +63,13 @@ fn every_protected_demo_is_felt_and_no_alarm() {
 
 #[test]
 fn a_run_that_ends_before_all_polarities_are_confirmed_says_so_and_for_how_long() {
+    let folder = tempfile::tempdir().unwrap();
+    let arm = folder.path().join("arm.toml");
+    let text = toml::to_string(&named("woodenhaptics-2016").and_then(|arm| arm.file()).unwrap()).unwrap();
+    std::fs::write(&arm, text.replace("name = \"b\"", "name = \"elbow\"")).unwrap();
     let withheld = |seconds: &str| {
-        let Demo { options } = Demo::parse_from(["demo", "--seconds", seconds, "--protected"]);
+        let device = arm.to_str().unwrap();
+        let Demo { options } = Demo::parse_from(["demo", "--seconds", seconds, "--protected", "--device", device]);
         let scene = options.scene().unwrap();
         let trace = run_on_host(&options, &scene).unwrap();
         let words = scene.withheld(&trace).expect("a polarity check").1;
@@ -71,7 +77,7 @@ fn a_run_that_ends_before_all_polarities_are_confirmed_says_so_and_for_how_long(
     };
     let (short, force) = withheld("0.2");
     // The pulses alone: below a quarter of 5 N.
-    assert!(force < 1.25 && short.contains("a not confirmed, b not confirmed, c not confirmed"), "{short}");
+    assert!(force < 1.25 && short.contains("a not confirmed, elbow not confirmed, c not confirmed"), "{short}");
     assert!(short.contains("force withheld for 0.10 s, to the end"), "{short}");
     let (whole, force) = withheld("2");
     assert!(force > 1.0 && !whole.contains("not confirmed") && !whole.contains("to the end"), "{whole}");
