@@ -41,6 +41,17 @@ pub const SUPPLY: SupplyRange = SupplyRange { min_mv: 10_000, max_mv: 14_000 };
 /// 10 Ω for 5 W across the supply, which a braking hand pumps up.
 pub const CHOPPER: ChopperSettings =
     ChopperSettings { on_v: 13.4, off_v: 13.0, resistance_ohm: 10.0, continuous_w: 5.0, energy_j: 20.0 };
+const _: () = {
+    let supply_mv = FEED.supply_v * 1e3;
+    assert!(
+        supply_mv >= SUPPLY.min_mv as f32 && supply_mv <= SUPPLY.max_mv as f32,
+        "the supply of FEED is outside of SUPPLY: adapt SUPPLY"
+    );
+    assert!(
+        FEED.supply_v < CHOPPER.off_v && CHOPPER.on_v * 1e3 < SUPPLY.max_mv as f32,
+        "CHOPPER must rest at the supply of FEED, and burn below the maximum of SUPPLY: adapt CHOPPER"
+    );
+};
 /// Twice the amplitude at full duty; a tenth of a volt over 7.5 Ω is noise of dead time.
 pub const CURRENTS: CurrentLimits = CurrentLimits { max_a: 1.2, open_a: 0.06 };
 

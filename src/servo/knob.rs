@@ -157,13 +157,15 @@ impl fmt::Display for KnobError {
                 beyond("is as stiff as", [asked, limit], "mN·m/rad")
             }
             Self::Damping { asked_n_m_s_per_rad: asked, limit_n_m_s_per_rad: limit } => {
-                beyond("damps by", [asked, limit], "mN·m·s/rad")
+                beyond("damps by", [asked, limit], "mN·m·s/rad")?;
+                formatter.write_str("; friction damps by its torque over its rate")
             }
             Self::Torque { asked_n_m: asked, limit_n_m: limit } => beyond("has up to", [asked, limit], "mN·m"),
             Self::Far { asked_rad: asked } => write!(
                 formatter,
-                "it would turn the dial by {asked:.2} rad, and the limit is an eighth of a turn, {MAX_RETURN_RAD:.2} rad: \
-                 turn the dial there first, or give a nearer position"
+                "it would turn the dial by {asked:.2} rad ({:.0}°), and the limit is an eighth of a turn, \
+                 {MAX_RETURN_RAD:.2} rad: turn the dial there first, or give a nearer position",
+                asked.to_degrees()
             ),
             Self::Undamped { asked_n_m_s_per_rad: asked, needed_n_m_s_per_rad: needed } => write!(
                 formatter,
@@ -243,7 +245,9 @@ impl Knob {
     /// The first number that is refused.
     pub const fn try_new(device: &Device<Dial, 1>, feels: &'static [Feel], let_go: f32) -> Result<Self, KnobError> {
         let radius = device.kinematics.radius_m;
-        let most = device.max_force_n * radius;
+        let (limit, full) = (device.max_force_n * radius, device.motors[0].torque_at_full_n_m);
+        let full = if full < 0.0 { -full } else { full };
+        let most = if limit < full { limit } else { full };
         if feels.is_empty() || feels.len() > 255 {
             return Err(KnobError::Feels);
         }
@@ -392,7 +396,7 @@ pub struct DialState {
     pub turns: i32,
     /// Radians.
     pub angle_rad: f32,
-    /// The torque of the feel, N·m, before soft start and limits.
+    /// The torque of the feel, N·m, before soft start and limits; 0 unless the loop is [`Phase::Running`].
     pub torque_n_m: f32,
     /// Which feel is active.
     pub feel: u8,
@@ -403,7 +407,7 @@ pub struct DialState {
 }
 
 impl Knob {
-    /// The dial as it is, for a host: a fault ends the feel's torque, and the angle goes on with the probe.
+    /// The dial as it is, for a host: without force there is no torque, and the angle goes on with the probe.
     pub fn dial(&self, state: &KnobWitness, probe: Vec3, phase: Phase) -> DialState {
         let (feel, angle) = (self.active(state), probe.x / self.radius);
         let whole = state.whole.map_or(0.0, |_| wound(state.turns.wrapping_sub(state.base), angle));
@@ -411,7 +415,7 @@ impl Knob {
         DialState {
             turns: state.turns,
             angle_rad: angle,
-            torque_n_m: if phase == Phase::Fault { 0.0 } else { state.torque },
+            torque_n_m: if matches!(phase, Phase::Running) { state.torque } else { 0.0 },
             feel: state.feel,
             detent: feel.detent(whole),
             end: feel.ends.map_or(0, |ends| beyond(ends.between_rad)),
@@ -628,6 +632,15 @@ mod tests {
             assert!(said.contains(says), "{said}");
         }
         assert_eq!(refused(Feel { detents: wave(0.0, 0.01), ..Feel::FREE }), KnobError::Feel(FeelError::Detents));
+        // A motor of 50 mN·m.
+        let mut weaker = GIMBAL_KNOB;
+        weaker.motors[0].torque_at_full_n_m = -0.05;
+        let asked = Spring { stiffness_n_m_per_rad: 0.06, rest_rad: 0.0, max_torque_n_m: 0.052 };
+        let feel = Feel { spring: Some(asked), damping_n_m_s_per_rad: 1e-4, ..Feel::FREE };
+        let refused_by =
+            |device| Knob::try_new(device, std::boxed::Box::leak(std::boxed::Box::new([feel])), LET_GO).err();
+        assert_eq!(refused_by(&GIMBAL_KNOB), None);
+        assert_eq!(refused_by(&weaker), Some(KnobError::Torque { asked_n_m: 0.052, limit_n_m: 0.05 }));
         assert_eq!(Knob::try_new(&GIMBAL_KNOB, &[], LET_GO), Err(KnobError::Feels));
         for (min_margin_m_per_rad, refusal) in
             [(0.016, None), (0.0161, Some(KnobError::Margin)), (f32::NAN, Some(KnobError::Margin))]

@@ -63,6 +63,24 @@ fn spend(device: &mut Held, seconds: f64) -> Result<(), Error> {
     Ok(())
 }
 
+/// Released, held until the rotor is aligned, released, held: force.
+fn start(device: &mut Held, knob: &SharedKnob) -> Result<(), Error> {
+    let aligns = f64::from(SEARCH.ticks()) / f64::from(device.hello().rate) + 0.1;
+    for (enable, seconds) in [(false, 0.1), (true, aligns), (false, 0.1), (true, 0.5)] {
+        knob.world().enable = enable;
+        spend(device, seconds)?;
+    }
+    Ok(())
+}
+
+/// The same through a reset of the device, which is greeted again.
+fn spend_through(device: &mut Held, seconds: f64) -> Result<(), Error> {
+    match spend(device, seconds) {
+        Err(Error::BeganAnew { .. }) => device.greet().map(|_| ()),
+        other => other,
+    }
+}
+
 impl Knob {
     /// Opens a line in a thread of its own, where it stays.
     fn over(
@@ -165,12 +183,7 @@ impl Knob {
             let flash: &'static KnobFlash = Box::leak(Box::new(KnobFlash::new()));
             let line: Box<dyn Line> = Box::new(SimulatedKnob::new(&of, flash));
             let mut device = Device::over(line)?;
-            // Released, held until the rotor is aligned, released, held: force.
-            let aligns = f64::from(SEARCH.ticks()) / f64::from(device.hello().rate) + 0.1;
-            for (enable, seconds) in [(false, 0.1), (true, aligns), (false, 0.1), (true, 0.5)] {
-                of.world().enable = enable;
-                spend(&mut device, seconds)?;
-            }
+            start(&mut device, &of)?;
             Ok(device)
         })
     }
@@ -261,6 +274,18 @@ impl Knob {
                 knob.world().dial.hold(hand(share, (to - from) / seconds));
                 device.tend()?;
             }
+        })
+    }
+
+    fn reset(&self, py: Python<'_>) -> PyResult<()> {
+        let knob = self.world()?.clone();
+        self.ask(py, move |device| {
+            {
+                let mut world = knob.world();
+                (world.resets, world.enable) = (true, false);
+            }
+            spend_through(device, 0.1)?;
+            start(device, &knob)
         })
     }
 

@@ -58,8 +58,8 @@ def test_a_setting_beyond_the_motor_is_refused_with_its_limit_and_changes_nothin
     for part, numbers, says in [
         ("spring", (0.2, 0.03), r"spring was refused .* up to 60\.00 mN·m, .* limit is 56\.00 mN·m: weaken"),
         ("detents", (TAU / 60, 0.05), r"detents was .* stiff as 3000\.00 mN·m/rad, and .* is 1600\.00 mN·m/rad: weaken"),
-        ("damping", (4e-3,), r"damping was refused .* 4\.00 mN·m·s/rad, and .* 3\.20 mN·m·s/rad: weaken"),
-        ("spring", (0.02, 0.01, 3.0), r"spring was refused .* turn the dial by .* rad, and .* 0\.79 rad: turn"),
+        ("damping", (4e-3,), r"damping was refused .* 4\.00 mN·m·s/rad, and .* 3\.20 mN·m·s/rad: weaken .*; friction damps"),
+        ("spring", (0.02, 0.01, 3.0), r"spring was refused .* turn the dial by .* rad .*°., and .* 0\.79 rad: turn"),
         ("friction", (float("nan"),), r"friction was refused .* finite"),
         ("notch", (0.0, 4.0, 0.01), r"notch was refused .* at most half a turn"),
         ("notch", (0.1, 0.1, 0.015), r"notch was refused .* would ring: .* damped by 0\.30 .* need 0\.91; set damping first"),
@@ -139,7 +139,15 @@ def test_a_feel_is_kept_once_the_button_is_up(knob):
     knob.press(False)
     knob.read(0.1)
     knob.keep()
+    knob.reset()
+    told = knob.read(0.1)
+    assert set(told.kept) == {1} and set(told.feel) == {6}
+    knob.press(False)
+    knob.read(0.1)
     knob.forget()
+    knob.reset()
+    told = knob.read(0.1)
+    assert set(told.kept) == {0} and set(told.feel) == {0}
 
 
 def test_a_port_that_is_none_and_a_knob_that_is_closed(knob):

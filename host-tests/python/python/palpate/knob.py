@@ -99,7 +99,8 @@ class Knob:
 
     def keep(self) -> None:
         """Stores the feel that was set, for every reset from the next on, and waits for the outcome: the button
-        released, a person then holds it for half a second and releases it, within 30 s. The simulated hand does.
+        released, a person then holds it for half a second and releases it, within 30 s. The simulated hand does, once
+        `press(False)` has released it.
 
         Raises SettingsError if the device refuses: a motor that is on, nobody who confirmed, no flash.
         """
@@ -120,16 +121,21 @@ class Knob:
 
     def hold(self, angle: float, *, seconds: float = 0.2, stiffness: float = 50.0, damping: float = 0.05) -> None:
         """Simulated: a hand takes the shaft to `angle`, rad, as `read` counts it, within `seconds`, s, and holds it: to
-        0.3 degrees, the encoder's error. By default it is a clamp; fingers have a `stiffness` of 0.12 N·m/rad and a
+        0.4 degrees, the encoder's error. By default it is a clamp; fingers have a `stiffness` of 0.12 N·m/rad and a
         `damping` of 0.002 N·m·s/rad."""
         self._native.hold(angle, seconds, stiffness, damping)
+
+    def reset(self) -> None:
+        """Simulated: the board is reset, aligns its rotor again and gives force: with the kept feel, if there is one."""
+        self._native.reset()
 
     def release(self) -> None:
         """Simulated: no hand."""
         self._native.release()
 
     def trace(self) -> Turned:
-        """Simulated: every tick since the last call; recording starts with the first."""
+        """Simulated: every tick since the last call; recording starts with the first. The simulated knob has no cogging
+        map: the shaft has the motor's cogging beside the feel, up to 6 mN·m."""
         return Turned(**self._native.trace())
 
     def close(self) -> None:

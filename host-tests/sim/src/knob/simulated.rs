@@ -22,8 +22,10 @@ pub struct KnobWorld {
     pub dial: crate::plant::Dial,
     /// The enable button is pressed.
     pub enable: bool,
-    /// A hand turns the dial there and back, softly.
-    pub turns: bool,
+    /// When a hand starts to turn the dial there and back, softly, s.
+    pub turns_from: f64,
+    /// The board is reset at its next tick.
+    pub resets: bool,
     /// A hand confirms what the device asks for: from this time on it holds the button for 0.6 s.
     pub confirms_at: Option<f64>,
     /// Where it is kept, for each tick: angle, rate and torque of the feel, angle and torque of the shaft; radians, s, N·m.
@@ -38,7 +40,14 @@ impl SharedKnob {
     /// A dial at rest.
     pub fn new(settings: DialSettings) -> Self {
         let dial = crate::plant::Dial::new(settings, f64::from(SETTINGS.rate_hz));
-        Self(Arc::new(Mutex::new(KnobWorld { dial, enable: false, turns: false, confirms_at: None, trace: None })))
+        Self(Arc::new(Mutex::new(KnobWorld {
+            dial,
+            enable: false,
+            turns_from: f64::INFINITY,
+            resets: false,
+            confirms_at: None,
+            trace: None,
+        })))
     }
 
     /// The current state of the simulated knob.
@@ -55,7 +64,7 @@ impl KnobWorld {
             self.enable = (at..at + 0.6).contains(&self.dial.time());
             self.confirms_at = self.confirms_at.filter(|at| self.dial.time() < at + 0.6);
         }
-        if self.turns {
+        if self.dial.time() >= self.turns_from {
             let phase = std::f64::consts::FRAC_PI_2 * self.dial.time();
             let (aim, rate) = (super::DIAL_ZERO + 1.05 * phase.sin(), 1.05 * std::f64::consts::FRAC_PI_2 * phase.cos());
             self.dial.hold(Fingers { stiffness: 0.2, damping: 2e-3, aim, rate });
@@ -106,6 +115,7 @@ pub struct SimulatedKnob {
     /// The board.
     pub board: SimulatedBoard<SimulatedBench<This, SharedKnob, 1>>,
     knob: SharedKnob,
+    flash: &'static KnobFlash,
     ticks: u32,
     /// Whether the device asked for a person in the last tick.
     asked: bool,
@@ -133,7 +143,7 @@ impl SimulatedKnob {
             kept.refused();
         }
         board.idle = board.idle.saying(SETTINGS.rate_hz, 0.0).keeping_feels(Box::leak(Box::new(kept)));
-        Self { board, knob: knob.clone(), ticks: 0, asked: false, began: Instant::now(), is_paced: false }
+        Self { board, knob: knob.clone(), flash, ticks: 0, asked: false, began: Instant::now(), is_paced: false }
     }
 
     /// Limits the simulation to real time.
@@ -144,6 +154,11 @@ impl SimulatedKnob {
 
     /// One servo period. A hand confirms what the device asks for: the button for 0.6 s.
     pub fn tick(&mut self) {
+        if std::mem::take(&mut self.knob.world().resets) {
+            let flash = Box::leak(Box::new(self.flash.after_reset()));
+            let Self { ticks, began, is_paced, .. } = *self;
+            *self = Self { ticks, began, is_paced, ..Self::new(&self.knob.clone(), flash) };
+        }
         self.board.tick(Self::BYTES);
         self.ticks += 1;
         let state = self.board.bench.state();

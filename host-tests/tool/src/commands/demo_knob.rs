@@ -10,6 +10,7 @@ use crate::knob::{
 use crate::plot::{Area, Axes, Axis, FIGURE, Ink, Key, Mark, Svg, at_widths, draw};
 use crate::report::{Report, Section};
 use anyhow::Context;
+use palpate::device::Refusal;
 use palpate::servo::{Fault, Phase};
 use palpate_sim::plant::DialSettings;
 use std::fs;
@@ -103,6 +104,10 @@ fn figures(with: &Run, without: &Run) -> Vec<(&'static str, String)> {
         |tick| {
             let quiet =
                 turned[tick..].iter().all(|sample| sample.current == 0.0 && sample.report.duties == [i16::MIN; 3]);
+            if aligned.is_none() {
+                let why = Refusal::from_code(turned[tick].report.refusal);
+                return why.map_or_else(|| "not aligned".to_owned(), |why| format!("not aligned: {why}"));
+            }
             let name = Fault::from_code(turned[tick].report.fault).map_or_else(String::new, |fault| fault.to_string());
             format!(
                 "planted, magnet slipped: {name}; {}",

@@ -106,9 +106,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         if !image.exists() {
             return Ok(ExitCode::SUCCESS);
         }
-        if chosen.is_some() {
-            print!("{}", firmware::report(board, arguments.kind(), &image)?);
-        }
+        print!("{}", firmware::report(board, arguments.kind(), &image)?);
         println!("image: {}\nto flash it: {}", image.display(), board.flashing(&image));
         if let Some(device) = &arguments.device {
             println!("{}", inside(&devices::own(device)?, arguments.rate));

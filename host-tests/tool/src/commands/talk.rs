@@ -76,12 +76,16 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         (None, None, true) => match &knob {
             Some(knob) => {
                 let device = SimulatedKnob::new(knob, Box::leak(Box::new(KnobFlash::new()))).paced();
-                (Box::new(device), Some(at_knob(knob)))
+                (Box::new(device), Some(at_knob(knob, true)))
             }
             None => {
                 let device = Simulated::new(simulated::Kind::default())?.paced();
                 let hand = device.hand();
-                (Box::new(device), Some(Box::new(move |press| hand.enables(press == Press::Down))))
+                let button = move |press| {
+                    hand.enables(press == Press::Down);
+                    press != Press::Reset
+                };
+                (Box::new(device), Some(Box::new(button)))
             }
         },
         (None, None, false) => bail!("either --port, --emulator or --host"),
@@ -105,7 +109,7 @@ fn talk(
             while device.view(SILENCE)?.hold & hold::RELEASE_FIRST == 0 && device.now() < until {}
             button(Press::Up);
             press(&mut device, button)?;
-            knob.world().turns = true;
+            knob.world().turns_from = 0.0;
         }
     }
     let mut console = Console::new(device, &file_of).with_button(button);

@@ -60,6 +60,8 @@ pub enum Asked {
     Dial(f32),
     /// The enable button of a simulated device, pressed or released.
     Press(bool),
+    /// Resets a simulated knob.
+    Reset,
     /// Stop.
     Stop,
     /// Go on after a reset.
@@ -101,7 +103,7 @@ pub enum Misunderstood {
 }
 
 /// Every command: its syntax, and its effect.
-pub const FORMS: [(&str, &str); 36] = [
+pub const FORMS: [(&str, &str); 37] = [
     ("who", "what the device says of itself"),
     ("where", "tip, velocity, body, gap, force, phase and fault as they are now; of a knob its dial"),
     ("watch [SECONDS]", "the same ten times a second, for 5 s"),
@@ -123,13 +125,13 @@ pub const FORMS: [(&str, &str); 36] = [
     ("detents DEGREES MNM [CENTRE]", "of a knob: smooth detents of this pitch and torque, in mN·m; `detents off`"),
     ("clicks DEGREES MNM FIRST LAST", "detents that snap, numbered from the first to the last; `clicks off`"),
     ("texture DEGREES MNM", "a fine one of this pitch; `texture off`"),
-    ("spring MNM_PER_DEGREE MAX REST", "a spring to this angle with a maximum torque; `spring off`"),
-    ("ends FROM TO MNM_PER_DEGREE [DAMPING]", "end stops between angles, damped in mN·m·s/rad; `ends off`"),
+    ("spring MNM_PER_RAD MAX REST", "a spring to this angle with a maximum torque; `spring off`"),
+    ("ends FROM TO MNM_PER_RAD [DAMPING]", "end stops between angles, damped in mN·m·s/rad; `ends off`"),
+    ("damping VALUE", "damping everywhere in mN·m·s/rad: 0.7 for each 1,000 mN·m/rad of the parts' stiffness, or more"),
     (
-        "damping VALUE",
-        "damping everywhere in mN·m·s/rad: 0.041 for each mN·m per degree of the parts' stiffness, or more",
+        "friction MNM [RATE]",
+        "dry friction, whole from this rate on, 2 rad/s; counts as damping of MNM/RATE; `friction off`",
     ),
-    ("friction MNM [RATE]", "dry friction, whole from this rate on, 2 rad/s; `friction off`"),
     ("notch AT WIDTH MNM", "a click at one angle, in degrees; `notch off`"),
     ("free", "no part is left"),
     ("dial [SECONDS]", "the dial ten times a second, for 5 s: angle, rate, torque, detent, feel"),
@@ -137,6 +139,7 @@ pub const FORMS: [(&str, &str); 36] = [
     ("forget-feel", "clears the stored one, confirmed in the same way"),
     ("press", "presses the enable button of a simulated or emulated device"),
     ("release", "releases it"),
+    ("reset", "resets the simulated knob (--host); its hand comes back after 4 s: `press` for 2 s, `release`, `press`"),
     ("wait SECONDS", "the next line of a file waits"),
     ("stop", "stops the device until it is reset"),
     ("ack", "goes on after a reset by the watchdog or a brown-out"),
@@ -268,7 +271,7 @@ impl Words<'_> {
     }
 
     fn stiffness(&mut self) -> Result<f32, Misunderstood> {
-        Ok(self.milli("MNM_PER_DEGREE")? * 360.0 / TAU)
+        self.milli("MNM_PER_RAD")
     }
 
     fn optional_number(&mut self, default: f32) -> Result<f32, Misunderstood> {
@@ -396,6 +399,7 @@ impl FromStr for Asked {
             }
             "press" => Self::Press(true),
             "release" => Self::Press(false),
+            "reset" => Self::Reset,
             "stop" => Self::Stop,
             "ack" => Self::Acknowledge,
             _ => return Err(Misunderstood::Word(name.to_owned())),
@@ -438,9 +442,8 @@ mod tests {
 
     #[test]
     fn degrees_and_millinewton_metres_become_a_part_of_a_feel() {
-        let Ok(Asked::Feel(FeelPart::Spring(Some(spring)))) = "spring 1 40 -90".parse() else { panic!("a spring") };
-        // 1 mN·m a degree is 0.057,296 N·m/rad; roundings.
-        assert!((spring.stiffness_n_m_per_rad - 0.057_296).abs() < 1e-6 && spring.max_torque_n_m == 0.04);
+        let Ok(Asked::Feel(FeelPart::Spring(Some(spring)))) = "spring 60 40 -90".parse() else { panic!("a spring") };
+        assert!(spring.stiffness_n_m_per_rad == 0.06 && spring.max_torque_n_m == 0.04);
         assert!((spring.rest_rad + TAU / 4.0).abs() < 1e-6);
         let Ok(Asked::Feel(FeelPart::Clicks(Some(clicks)))) = "clicks 15 30 -5 5".parse() else { panic!("clicks") };
         assert!((clicks.stiffness * clicks.snap * clicks.pitch - 0.03).abs() < 1e-6, "{clicks:?}");

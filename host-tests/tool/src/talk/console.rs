@@ -39,10 +39,12 @@ pub enum Press {
     Up,
     /// It confirms what the device is going to ask for.
     Confirm,
+    /// It releases the button, and resets the device.
+    Reset,
 }
 
-/// The finger at an enable button.
-pub type Button = Box<dyn Fn(Press)>;
+/// The finger at an enable button; whether it could do that.
+pub type Button = Box<dyn Fn(Press) -> bool>;
 
 /// A session with a device. No method waits for a person: call [`Self::tend`] while no command comes.
 pub struct Console<'a, L> {
@@ -200,7 +202,9 @@ impl<'a, L: Line> Console<'a, L> {
                     button(Press::Up);
                 }
                 let confirm = || match button {
-                    Some(button) => button(Press::Confirm),
+                    Some(button) => {
+                        button(Press::Confirm);
+                    }
                     None => {
                         // A person who does not read it does not confirm, and that is refused.
                         let _ = writeln!(output, "now hold the enable button for half a second, and release it");
@@ -217,6 +221,13 @@ impl<'a, L: Line> Console<'a, L> {
                 let button = self.button.as_ref();
                 let button = button.ok_or_else(|| anyhow::anyhow!("a real device has its own button: press that"))?;
                 button(if pressed { Press::Down } else { Press::Up });
+            }
+            Asked::Reset => {
+                if !self.button.as_ref().is_some_and(|button| button(Press::Reset)) {
+                    anyhow::bail!(
+                        "only the simulated knob is reset from here (--device knob --host): end this session and start another"
+                    );
+                }
             }
             Asked::Wait(seconds) => {
                 self.waits = Some(later(seconds, now));
@@ -303,7 +314,12 @@ impl<'a, L: Line> Console<'a, L> {
     fn begin_anew(&mut self, output: &mut dyn Write) -> anyhow::Result<()> {
         (self.pushes, self.poses) = (None, BTreeMap::new());
         self.device.greet()?;
-        writeln!(output, "the device was reset: it renders its built-in body, in its first place")?;
+        let starts = if is_knob(&self.device.hello()) {
+            "with the kept feel, or its table"
+        } else {
+            "with its built-in body, in its first place"
+        };
+        writeln!(output, "the device was reset: it starts {starts}")?;
         Ok(())
     }
 
@@ -391,7 +407,15 @@ fn turned(dial: &Dial) -> String {
 
 /// The fault that stopped the device, if one did.
 fn stopped(view: &View) -> String {
-    Fault::from_code(view.fault).map_or_else(String::new, |fault| format!("; stopped: {fault}"))
+    Fault::from_code(view.fault).map_or_else(String::new, |fault| format!("; stopped: {fault}{}", reason(fault)))
+}
+
+/// Where the reason of a fault is, which a view does not have.
+const fn reason(fault: Fault) -> &'static str {
+    match fault {
+        Fault::Homing => " (`monitor` shows the reason, docs/troubleshooting.md what to do)",
+        _ => "",
+    }
 }
 
 /// A view in a line.
@@ -422,7 +446,7 @@ fn phase(view: &View) -> String {
         Some(Phase::Fault) => "stopped",
         Some(Phase::Reset) | None => "reset",
     };
-    let fault = Fault::from_code(view.fault).map_or_else(String::new, |fault| format!(": {fault}"));
+    let fault = Fault::from_code(view.fault).map_or_else(String::new, |fault| format!(": {fault}{}", reason(fault)));
     let holds: String = hold::reasons(view.hold).map(|why| format!("; {why}")).collect();
     format!("{phase}{fault}{holds}")
 }

@@ -6,7 +6,7 @@ use crate::firmware::{Board, Emulator, Link as _, Program, Progress};
 use palpate::wire::Sensors;
 use palpate_link::Line;
 use palpate_sim::knob::{SharedKnob, widths_of};
-use palpate_sim::plant::{HandSettings, Plant, PlantSettings};
+use palpate_sim::plant::{Fingers, HandSettings, Plant, PlantSettings};
 use palpate_sim::simulated::Hand;
 use std::io::{self, ErrorKind, Read as _, Write as _};
 use std::net::TcpStream;
@@ -22,15 +22,22 @@ const WAIT: Duration = Duration::from_micros(200);
 const MIDDLE: [f64; 3] = [0.03, 0.02, 0.015];
 const ABOVE: [f64; 3] = [0.03, 0.02, 0.045];
 
-/// A finger at a simulated knob.
-pub fn at_knob(knob: &SharedKnob) -> Button {
+/// A finger at a simulated knob, which can be reset, or an emulated one.
+pub fn at_knob(knob: &SharedKnob, can_reset: bool) -> Button {
     let knob = knob.clone();
     Box::new(move |press| {
         let mut world = knob.world();
         let now = world.dial.time();
         world.enable = press == Press::Down;
+        if press == Press::Reset {
+            // The rotor is aligned without a hand on it.
+            world.dial.hold(Fingers::NONE);
+            (world.resets, world.turns_from) = (can_reset, now + 4.0);
+            return can_reset;
+        }
         // The device asks once it has seen the button released for long enough.
         world.confirms_at = (press == Press::Confirm).then_some(now + 0.3);
+        true
     })
 }
 
@@ -91,9 +98,12 @@ impl Emulated {
         match &self.world {
             World::Arm(_, hand) => {
                 let hand = hand.clone();
-                Box::new(move |press| hand.enables(press == Press::Down))
+                Box::new(move |press| {
+                    hand.enables(press == Press::Down);
+                    press != Press::Reset
+                })
             }
-            World::Knob(knob) => at_knob(knob),
+            World::Knob(knob) => at_knob(knob, false),
         }
     }
 

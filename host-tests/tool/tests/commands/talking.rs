@@ -87,6 +87,14 @@ fn a_knob_says_what_became_of_its_feel() {
     let outcome = "done\nkept: the knob starts with this feel from the next reset on\n\
                    cleared: it starts with its table from the next reset on\n";
     assert_eq!((status, said.contains(outcome)), (Some(0), true), "{said}{complained}");
+    // A reset starts with what was kept: spring and damping have no detents, the table's first feel has 30 mN·m.
+    let lines =
+        "free\ndamping 1\nkeep-feel\nreset\nwait 0.1\npress\nwait 2.5\nrelease\nwait 0.3\npress\nwait 0.5\nwhere\n";
+    let (status, said, complained) = talk(&arguments, lines);
+    let last = said.lines().last().unwrap_or_default();
+    assert!(status == Some(0) && last.contains("; feel 6; the kept feel was used; running"), "{said}{complained}");
+    let (status, _, complained) = talk(&["--host"], "reset\n");
+    assert!(status == Some(2) && complained.contains("only the simulated knob is reset from here"), "{complained}");
     // The hand turns the dial on, which has no torque.
     let (_, said, complained) = talk(&arguments, "stop\nwait 0.1\ndial 0.6\n");
     let turns: Vec<_> = said.lines().filter(|line| line.starts_with("dial at")).collect();
@@ -109,7 +117,7 @@ fn a_knob_says_what_became_of_its_feel() {
         ("choose 9\n", "choose was refused by the device: there is no feel 9: choose 0 to 5"),
         ("keep-feel\n", "keep-feel was refused by the device: no feel was set since the last reset; set one first"),
         (
-            "spring 0.3 31.25 0\n",
+            "spring 17 31.25 0\n",
             "spring was refused by the device: with it the feel has up to 61.25 mN·m, and the motor's limit is 56.00 mN·m: \
              weaken it or another part, or take one away",
         ),
