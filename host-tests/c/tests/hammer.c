@@ -627,7 +627,8 @@ int main(int count, char **arguments)
     good("soft", palpate_soft_body_load(&soft, sizeof soft, &body, modes, 2, settings.rate, room, sizeof room));
     press();
     const palpate_joint shaft = {6.2831853f / 4000, 0, 0.06f, 0, -INFINITY, INFINITY, {0, 0, 0, 0, 0, 0}};
-    motor = device, motor.joints[0] = shaft, motor.max_stiffness = 4000, motor.max_joint_rate = 120;
+    motor = device, motor.joints[0] = shaft, motor.min_margin = 0.01f, motor.max_stiffness = 4000,
+    motor.max_joint_rate = 120;
     turn();
     good("receiver", palpate_receiver_start(&receiver, sizeof receiver));
     use(&body);
