@@ -10,22 +10,32 @@ pub enum DeviceError {
     /// An encoder's angle per count is zero or not finite, or its angle at zero is not finite.
     #[error("joint {0}: the encoder's counts a turn and ratio must be finite and not zero, and its zero finite")]
     Encoder(usize),
-    /// A motor's torque at full duty is zero or not finite.
-    #[error("joint {0}: the motor's torque constant, current and ratio must be finite and not zero")]
-    Motor(usize),
-    /// The dry friction is negative or not finite.
-    #[error("joint {0}: the dry friction must be finite and not negative")]
-    Friction(usize),
-    /// The range's minimum angle is not below its maximum.
+    /// A motor's torque at full duty is zero, not finite, or above 200 N·m: 26 mN·m/A are 0.026 N·m/A.
     #[error(
-        "joint {0}: the range's minimum must be below its maximum, and both finite, or both infinite of an only joint"
+        "joint {0}: the motor's torque constant (N·m/A), current (A) and ratio must be finite and not zero, together at most \
+         200 N·m"
+    )]
+    Motor(usize),
+    /// The dry friction is negative, not finite, or more than the motor's torque at full duty.
+    #[error(
+        "joint {0}: the dry friction (N·m) must be finite, not negative and at most the motor's torque at full duty"
+    )]
+    Friction(usize),
+    /// The range's minimum angle is not below its maximum, or one is beyond two turns, of an only joint 20.
+    #[error(
+        "joint {0}: the range's minimum must be below its maximum, and both within two turns (20 of an only joint), in rad, \
+         or both infinite of an only joint"
     )]
     Range(usize),
     /// A joint that turns without end has no whole number of counts a turn.
     #[error("joint {0} turns without end: its encoder needs a whole number of counts a turn, 4 to 16,777,216")]
     Endless(usize),
-    /// A limit of the whole device is not positive and finite.
-    #[error("minimum margin, maximum rate, force, stiffness and damping must be positive and finite")]
+    /// A limit of the whole device is not positive and finite, the minimum margin above 10 m/rad or the maximum force
+    /// above 1,000 N.
+    #[error(
+        "minimum margin (m/rad, at most 10), maximum rate, force (N, at most 1,000), stiffness and damping must be positive \
+         and finite"
+    )]
     Limit,
     /// A number of the mechanism, by the name that a device file has for it.
     #[error(
@@ -52,6 +62,41 @@ pub enum DeviceError {
         holds_n_m: f32,
     },
 }
+
+impl DeviceError {
+    /// The text without joint and numbers, for a panic at compile time.
+    pub const fn message(self) -> &'static str {
+        match self {
+            Self::Encoder(_) => "an encoder's counts a turn and ratio must be finite and not zero, and its zero finite",
+            Self::Motor(_) => {
+                "a motor's torque at full duty (N·m/A times A times ratio) must be finite, not zero and at most 200 N·m"
+            }
+            Self::Friction(_) => "a dry friction (N·m) must be finite, not negative and at most its motor's torque",
+            Self::Range(_) => {
+                "a range's minimum must be below its maximum, and both within two turns (20 of an only joint), in rad"
+            }
+            Self::Endless(_) => "an endless joint's encoder needs a whole number of counts a turn, 4 to 16,777,216",
+            Self::Limit => {
+                "minimum margin (m/rad, at most 10), maximum rate, force (N, at most 1,000), stiffness and damping must be positive and finite"
+            }
+            Self::Mechanism(_) => {
+                "a length of the mechanism must be 0.001 to 2 m, an offset −2 to 2 m, a direction a unit vector"
+            }
+            Self::Centre => "the workspace's centre is out of the mechanism's reach",
+            Self::Mass(_) => "a mass of the mechanism must be finite and not negative",
+            Self::Weight { .. } => "gravity compensation takes more than a motor holds",
+        }
+    }
+}
+
+/// More torque than a haptic device's motor gives at its joint, N·m.
+const MAX_TORQUE_N_M: f32 = 200.0;
+/// Two turns either way, and 20, radians: a range in degrees is beyond.
+const MAX_ANGLE_RAD: [f32; 2] = [12.6, 126.0];
+/// A margin is shorter than the links, m/rad; in mm it is above.
+const MAX_MARGIN_M_PER_RAD: f32 = 10.0;
+/// More force than a haptic device gives, N.
+const MAX_FORCE_N: f32 = 1e3;
 
 /// Lengths of a mechanism by name: 1 mm to 2 m.
 pub(super) const fn lengths(all: &[(&'static str, f32)]) -> Result<(), DeviceError> {
@@ -145,22 +190,25 @@ impl<K, const JOINTS: usize> Device<K, JOINTS> {
         torques
     }
 
-    /// Checks every number but the mechanism's, which has its own check: [`super::Kinematics::check`].
+    /// Checks every number but the mechanism's, which has its own check: [`super::Kinematics::check`]. A number in
+    /// another unit is refused where it is beyond every device's by an order of magnitude.
     ///
     /// # Errors
     /// The first that no device has.
     pub const fn check(&self) -> Result<(), DeviceError> {
+        let max_angle = MAX_ANGLE_RAD[(JOINTS == 1) as usize];
         let mut joint = 0;
         while joint < JOINTS {
             let encoder = &self.encoders[joint];
             if !(is_factor(encoder.radians_per_count) && encoder.angle_at_zero_rad.is_finite()) {
                 return Err(DeviceError::Encoder(joint));
             }
-            if !is_factor(self.motors[joint].torque_at_full_n_m) {
+            let torque = self.motors[joint].torque_at_full_n_m;
+            if !(is_factor(torque) && torque.abs() <= MAX_TORQUE_N_M) {
                 return Err(DeviceError::Motor(joint));
             }
             let friction = self.dry_friction_n_m[joint];
-            if !(friction >= 0.0 && friction < f32::INFINITY) {
+            if !(friction >= 0.0 && friction <= torque.abs()) {
                 return Err(DeviceError::Friction(joint));
             }
             let [minimum, maximum] = self.joint_range_rad[joint];
@@ -170,14 +218,16 @@ impl<K, const JOINTS: usize> Device<K, JOINTS> {
                 if !(counts >= 4 && counts <= 1 << 24 && off.abs() < 4e-7) {
                     return Err(DeviceError::Endless(joint));
                 }
-            } else if !(minimum < maximum && minimum.is_finite() && maximum.is_finite()) {
+            } else if !(minimum < maximum && minimum >= -max_angle && maximum <= max_angle) {
                 return Err(DeviceError::Range(joint));
             }
             joint += 1;
         }
         let positive = is_positive(self.min_margin_m_per_rad)
+            && self.min_margin_m_per_rad <= MAX_MARGIN_M_PER_RAD
             && is_positive(self.max_joint_rate_rad_per_s)
             && is_positive(self.max_force_n)
+            && self.max_force_n <= MAX_FORCE_N
             && is_positive(self.max_stiffness_n_per_m)
             && is_positive(self.max_damping_n_s_per_m);
         if positive { Ok(()) } else { Err(DeviceError::Limit) }
@@ -224,6 +274,25 @@ mod tests {
         device = DEVICE;
         device.dry_friction_n_m[0] = -0.1;
         assert_eq!(device.check(), Err(DeviceError::Friction(0)));
+    }
+
+    #[test]
+    fn a_number_in_another_unit_is_refused() {
+        let changed = |change: fn(&mut Device<SerialArm, 3>)| {
+            let mut device = DEVICE;
+            change(&mut device);
+            device.check()
+        };
+        // mN·m/A, mN·m, degrees, mm/rad, mN.
+        let torque = |device: &mut Device<SerialArm, 3>| device.motors[1] = Motor::current_driven(25.9, 3.0, -12.0);
+        assert_eq!(changed(torque), Err(DeviceError::Motor(1)));
+        assert_eq!(changed(|device| device.dry_friction_n_m[2] *= 1e3), Err(DeviceError::Friction(2)));
+        assert_eq!(changed(|device| device.joint_range_rad[0] = [-92.0, 92.0]), Err(DeviceError::Range(0)));
+        assert_eq!(changed(|device| device.min_margin_m_per_rad *= 1e3), Err(DeviceError::Limit));
+        assert_eq!(changed(|device| device.max_force_n *= 1e3), Err(DeviceError::Limit));
+        // A dial may turn ten times either way; 270 degrees are no radians.
+        let range = |most: f32| Device { joint_range_rad: [[-most, most]], ..GIMBAL_KNOB }.check();
+        assert_eq!((range(62.8), range(270.0)), (Ok(()), Err(DeviceError::Range(0))));
     }
 
     /// Checks a device, its mechanism with it.

@@ -352,11 +352,14 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
         }
     }
 
-    /// [`Self::try_new`] for a `static`: a refused configuration does not compile.
+    /// [`Self::try_new`] for a `static`: a refused device ([`Device::check`]) or configuration does not compile.
     ///
     /// # Panics
     /// At compile time, naming the value.
     pub const fn new(device: &'a Device<K, JOINTS>, surface: &'a S, config: Config<JOINTS>) -> Self {
+        if let Err(error) = device.check() {
+            panic!("{}", error.message())
+        }
         match Self::try_new(device, surface, config) {
             Ok(servo) => servo,
             Err(error) => panic!("{}", error.message()),
@@ -400,7 +403,7 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
         }
     }
 
-    /// [`Self::try_protected`] for a `static`: a refused configuration does not compile.
+    /// [`Self::try_protected`] for a `static`: a refused device ([`Device::check`]) or configuration does not compile.
     ///
     /// # Panics
     /// At compile time, naming the value.
@@ -410,6 +413,9 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
         protection: Protection<JOINTS>,
         config: Config<JOINTS>,
     ) -> Self {
+        if let Err(error) = device.check() {
+            panic!("{}", error.message())
+        }
         match Self::try_protected(device, surface, protection, config) {
             Ok(servo) => servo,
             Err(error) => panic!("{}", error.message()),

@@ -133,6 +133,7 @@ pub static WATCHFUL: ServoOf<LinkageArm> = Servo::new(
 const WEAK: Device<SerialArm, 3> = Device {
     // Next to nothing: the duty for any torque is infinite.
     motors: [Motor { torque_at_full_n_m: 1e-44 }; 3],
+    dry_friction_n_m: [0.0; 3],
     ..WOODEN_HAPTICS_2016
 };
 

@@ -116,10 +116,12 @@ enum {
     PALPATE_FILE_BODY = 26,                /**< The body is not one. */
     PALPATE_FILE_TABLES = 27,              /**< The tables are not those that were baked. */
     PALPATE_DEVICE_ENCODER = 32,           /**< Radians a count zero or not finite, or a zero not finite. */
-    PALPATE_DEVICE_MOTOR = 33,             /**< Torque zero or not finite, or no feed of a motor. */
-    PALPATE_DEVICE_FRICTION = 34,          /**< Dry friction negative or not finite. */
-    PALPATE_DEVICE_RANGE = 35,             /**< A least angle not below the greatest, or no whole counts a turn. */
-    PALPATE_DEVICE_LIMIT = 36,             /**< A limit of the whole device not positive and finite. */
+    PALPATE_DEVICE_MOTOR = 33,             /**< Torque zero, not finite or above 200 N·m, or no feed of a motor. */
+    PALPATE_DEVICE_FRICTION = 34,          /**< Dry friction negative, not finite or above its motor's torque. */
+    PALPATE_DEVICE_RANGE = 35,             /**< A least angle not below the greatest, an angle beyond two turns (20 of an only
+                                                joint), or no whole counts a turn. */
+    PALPATE_DEVICE_LIMIT = 36,             /**< A limit of the whole device not positive and finite, a margin above 10 m/rad, a
+                                                force above 1,000 N. */
     PALPATE_DEVICE_MECHANISM = 37,         /**< A length or direction of the mechanism that no device has. */
     PALPATE_DEVICE_CENTRE = 38,            /**< The workspace's centre out of the mechanism's reach. */
     PALPATE_DEVICE_MASS = 39,              /**< A mass of the mechanism negative or not finite. */

@@ -207,7 +207,7 @@ fn check_units(file: &DeviceFile, refuse: &impl Fn(&str, &str) -> DeviceFileErro
         }
         Ok(())
     };
-    for (index, JointEntry { range, friction, motor, inertia, .. }) in file.joint.iter().enumerate() {
+    for (index, JointEntry { range, friction, encoder, motor, inertia, .. }) in file.joint.iter().enumerate() {
         let entry = |name: &str| format!("joint {index}: {name}");
         within(&entry("motor.torque_constant"), motor.torque_constant, 1e-4, 5.0, "N·m/A (36 mN·m/A are 0.036)")?;
         within(&entry("motor.current_at_full"), motor.current_at_full, 1e-3, 200.0, "A")?;
@@ -226,6 +226,7 @@ fn check_units(file: &DeviceFile, refuse: &impl Fn(&str, &str) -> DeviceFileErro
         for angle in range {
             within(&entry("range"), *angle, -MAX_ANGLE, MAX_ANGLE, "radians")?;
         }
+        within(&entry("encoder.zero"), encoder.zero, -2.0 * MAX_ANGLE, 2.0 * MAX_ANGLE, "radians")?;
         within(&entry("inertia"), inertia.unwrap_or(0.0), 0.0, 1.0, "kg·m²")?;
     }
     within("limits.max_force", file.limits.max_force, 0.0, 500.0, "N")?;

@@ -87,6 +87,7 @@ fn a_bad_file_is_refused_by_its_entry() {
         ("current_at_full = 3.0", "current_at_full = 3000.0", "joint a: motor.current_at_full: 3000 is no"),
         ("torque_constant = 0.0259", "torque_constant = 4.9", "joint a: motor: torque_constant times current_at_full"),
         ("range = [-1.6, 1.6]", "range = [-92.0, 92.0]", "joint a: range: -92 is no haptic device's: it is in radians"),
+        ("zero = 0.0", "zero = 45.0", "joint a: encoder.zero: 45 is no"),
         ("friction = ", "friction = 12", "joint a: friction: 12"),
         ("max_stiffness = ", "max_stiffness = 1.0 # ", "limits.max_stiffness: must be at least 10 N/m"),
         ("max_force = 5.0", "max_force = 5000.0", "limits.max_force: 5000 is no"),
