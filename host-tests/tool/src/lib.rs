@@ -33,3 +33,4 @@ pub mod simulation;
 pub mod spread;
 pub mod talk;
 pub mod timed_tests;
+pub mod unread;

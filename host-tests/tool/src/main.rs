@@ -5,6 +5,7 @@ use palpate_tool::commands::{
     accept, bake, budgets, c_library, check, closest, commission, cycles, demo, device, faults, feel, figures,
     firmware, image, import, monitor, page, pair, parts, race, sim, talk, test, wheel, zwidth,
 };
+use palpate_tool::unread;
 use std::process::ExitCode;
 
 #[derive(Parser)]
@@ -48,7 +49,16 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    let outcome = match CommandLine::parse().command {
+    let command = CommandLine::parse().command;
+    // Bad input and failures end with 2: 0 and 1 are verdicts (see `check`).
+    unread::run(|| run(command)).unwrap_or_else(|error| {
+        eprintln!("error: {error:#}");
+        ExitCode::from(2)
+    })
+}
+
+fn run(command: Command) -> anyhow::Result<ExitCode> {
+    match command {
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Accept(arguments) => accept::run(&arguments),
         Command::Commission(arguments) => commission::run(&arguments),
@@ -77,10 +87,5 @@ fn main() -> ExitCode {
         Command::Race(arguments) => race::run(&arguments),
         Command::RunTest(arguments) => test::run_test(&arguments),
         Command::View(arguments) => page::view(&arguments),
-    };
-    // Bad input and failures end with 2: 0 and 1 are verdicts (see `check`).
-    outcome.unwrap_or_else(|error| {
-        eprintln!("error: {error:#}");
-        ExitCode::from(2)
-    })
+    }
 }

@@ -16,3 +16,4 @@ mod race;
 mod race_on_target;
 mod recordings;
 mod talking;
+mod unread;
