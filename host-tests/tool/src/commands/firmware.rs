@@ -53,6 +53,7 @@ pub struct Arguments {
 /// # Errors
 /// The cause, for the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
+    arguments.check_rate_and_place()?;
     let progress = Progress::new();
     let device = arguments.device.as_deref().map(|device| constants(arguments.board, device, arguments.rate));
     let device = device.transpose()?;
@@ -76,11 +77,6 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     if let Some((variable, file)) = device {
         command.env(variable, file);
     }
-    let is_bench = matches!(arguments.board, AnyBoard::Bench(_));
-    ensure!(
-        is_bench || (arguments.at.is_none() && arguments.rate.is_none()),
-        "--at and --rate apply to the boards for the bench; an emulated board takes those of `demo`"
-    );
     if let Some(rate) = arguments.rate {
         command.env("PALPATE_RATE", rate.to_string());
     }
@@ -119,6 +115,27 @@ impl Arguments {
     /// Whether the image for `palpate accept` is asked for.
     fn accepts(&self) -> bool {
         self.cargo == ["accept"]
+    }
+
+    /// Refuses a rate and a place that the board's build would refuse.
+    fn check_rate_and_place(&self) -> anyhow::Result<()> {
+        let AnyBoard::Bench(board) = self.board else {
+            ensure!(
+                self.at.is_none() && self.rate.is_none(),
+                "--at and --rate apply to the boards for the bench; an emulated board takes those of `demo`"
+            );
+            return Ok(());
+        };
+        let rates = board.rates_hz();
+        ensure!(
+            self.rate.is_none_or(|rate| rates.contains(&rate)),
+            "--rate {}: {} takes {} to {} Hz",
+            self.rate.unwrap_or_default(),
+            board.name(),
+            rates.start(),
+            rates.end()
+        );
+        Ok(())
     }
 
     /// The arguments of cargo that follow a flag, each time.
@@ -338,6 +355,35 @@ fn command(toolchain: &Toolchain, arguments: &Arguments, progress: &Progress) ->
 mod tests {
     use super::*;
     use palpate_sim::devices::{BridgeEntry, named};
+
+    #[test]
+    fn a_rate_is_refused_where_the_boards_build_would_refuse_it() {
+        for board in BenchBoard::ALL {
+            let build = board.folder().expect("the repository").join("build.rs");
+            let build = fs::read_to_string(build).expect("its build script");
+            let (least, most) = (board.rates_hz().start().to_owned(), board.rates_hz().end().to_owned());
+            let call = format!("palpate_board_build::rate({}_000);", most / 1_000);
+            assert!(build.contains(&call), "{}: {call}", board.name());
+            let takes = |rate| {
+                let arguments = Arguments {
+                    board: AnyBoard::Bench(board),
+                    body: None,
+                    device: None,
+                    at: None,
+                    rate: Some(rate),
+                    cargo: vec!["build".to_owned()],
+                };
+                arguments.check_rate_and_place().map_err(|error| error.to_string())
+            };
+            assert_eq!([takes(least), takes(most)], [Ok(()), Ok(())]);
+            for rate in [0, 1_000, least - 1, most + 1] {
+                let says = format!("--rate {rate}: {} takes 3000 to {most} Hz", board.name());
+                assert_eq!(takes(rate), Err(says));
+            }
+        }
+        let build = repository::root().expect("the repository").join("boards/build/src/lib.rs");
+        assert!(fs::read_to_string(build).expect("the builds").contains("(3_000..=highest_hz).contains(rate)"));
+    }
 
     #[test]
     fn a_body_out_of_the_arms_reach_is_refused_as_sim_refuses_it() {

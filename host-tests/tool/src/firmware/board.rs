@@ -3,6 +3,7 @@
 use crate::repository::{self, NoRepository};
 use clap::ValueEnum;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 /// An emulated board. All run the same programs.
@@ -149,6 +150,14 @@ impl BenchBoard {
         match self {
             Self::Stm32g4 => 16,
             Self::Pico2 | Self::Teensy41 => 14,
+        }
+    }
+
+    /// Servo rates that its build takes, Hz.
+    pub const fn rates_hz(self) -> RangeInclusive<u32> {
+        match self {
+            Self::Stm32g4 | Self::Pico2 => 3_000..=20_000,
+            Self::Teensy41 => 3_000..=40_000,
         }
     }
 
