@@ -171,11 +171,19 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
     }
 
     /// The joint rates that the drives make up for: none while a field is led. The rotor is to follow it, and a hand
-    /// that spins the dial is to get no volts for that.
+    /// that spins the dial is to get no volts for that. Until the polarity of all motors is confirmed none either: of a
+    /// wrong one it would brake the polarity pulses, and they would take long to tell.
     #[inline]
     fn rates_to_feed(&self, state: &ServoState<JOINTS, S::Witness, G::State>) -> [f32; JOINTS] {
         let leads = !state.readiness.homed && self.core.homing.as_ref().is_some_and(Homing::leads_fields);
-        if leads { [0.0; JOINTS] } else { state.sensors.rates }
+        let fraction = self.guard.force_fraction(&state.guard);
+        if leads {
+            [0.0; JOINTS]
+        } else if fraction < 1.0 {
+            state.sensors.rates.map(|rate| rate * fraction)
+        } else {
+            state.sensors.rates
+        }
     }
 
     /// The expected CRC of the tables, if they are to be checked and carry one.

@@ -2,13 +2,14 @@
 
 use crate::protected::{Bench, FALCON, PHANTOM, POLHEM, RATE, WOODEN_HAPTICS, settings};
 use crate::surfaces::{WALL, table1c};
-use palpate::device::{Counts, Duty, Kinematics};
+use palpate::device::drive::{Feed, VoltageFeed};
+use palpate::device::{Counts, Duty, Kinematics, SerialArm};
 use palpate::math::{Vec3, vec3};
 use palpate::servo::recommended::{self, Recommended};
 use palpate::servo::{Config, Fault, Input, Servo};
 use palpate::track::Witness;
 use palpate_sim::plant::{
-    Direction, HandPath, HandSettings, Plant, PlantSettings, TouchingPath, TouchingSettings, Vector,
+    Amplifier, Direction, HandPath, HandSettings, Plant, PlantSettings, TouchingPath, TouchingSettings, Vector, Winding,
 };
 use rand::{Rng as _, SeedableRng as _};
 
@@ -115,7 +116,10 @@ fn runs_away<K: Kinematics<3>>(bench: &Bench<K>, wrong: [bool; 3], speed: f64) -
             break;
         }
         let most = 0.25 * f64::from(bench.device.max_force_n);
-        let (told, pressed) = (f64::from(state.force().length()), pressed(bench, state.angles(), state.duties()));
+        // The duty of a bridge is a voltage, whose torque goes with the rate.
+        let is_torque = matches!(bench.device.feeds[0], Feed::Current);
+        let pressed = if is_torque { pressed(bench, state.angles(), state.duties()) } else { 0.0 };
+        let told = f64::from(state.force().length());
         assert!(told <= most && pressed <= most, "{} {wrong:?}: {told} N, {pressed} N", bench.name);
         // What the motors have moved the probe by, up to now: the other plant's hand is alone.
         let moved = difference(free.position(), plant.position());
@@ -130,6 +134,29 @@ fn runs_away<K: Kinematics<3>>(bench: &Bench<K>, wrong: [bool; 3], speed: f64) -
         free.advance([0; 3]);
     }
     harm
+}
+
+/// WoodenHaptics with its motors on bridges, which give a voltage: of a joint that is wrong the back-EMF that is made up
+/// for would brake the pulses.
+fn on_bridges() -> Bench<SerialArm> {
+    let mut device = *WOODEN_HAPTICS.device;
+    let mut plant = WOODEN_HAPTICS.plant;
+    for (joint, ratio) in [16.0, -12.0, 12.0].into_iter().enumerate() {
+        let torque_constant = plant.joints[joint].torque_constant;
+        assert_eq!(plant.joints[joint].ratio, f64::from(ratio).abs(), "the ratios of the plant");
+        device.feeds[joint] = Feed::Voltage(VoltageFeed {
+            supply_v: 24.0,
+            full_fraction: 1.0,
+            resistance_ohm: 0.61,
+            torque_constant_n_m_per_a: torque_constant as f32,
+            current_at_full_a: 3.0,
+            ratio,
+            back_emf_fraction: 0.8,
+        });
+        plant.joints[joint].amplifier =
+            Amplifier::Voltage(Winding { supply: 24.0, resistance: 0.61, inductance: 1e-4 });
+    }
+    Bench { name: "on bridges", device: Box::leak(Box::new(device)), plant, ..WOODEN_HAPTICS }
 }
 
 fn every_wrong_sign<K: Kinematics<3>>(bench: &Bench<K>) -> Vec<Harm> {
@@ -154,6 +181,7 @@ fn a_wrong_sign_is_stopped_within_ten_milliseconds_and_a_millimetre() {
         every_wrong_sign(&POLHEM),
         every_wrong_sign(&PHANTOM),
         every_wrong_sign(&FALCON),
+        every_wrong_sign(&on_bridges()),
     ]
     .concat();
     let most = |figure: fn(&Harm) -> f64| all.iter().map(figure).fold(0.0, f64::max);
