@@ -30,6 +30,10 @@ impl Tables {
 pub struct Reach {
     shipped: Tables,
     far: Option<Tables>,
+    /// Queries beyond the reach of the tables that ship.
+    pub queries_beyond: usize,
+    /// The margin that reaches all queries, in sizes: `bake --margin`.
+    pub margin: f64,
 }
 
 impl Reach {
@@ -46,13 +50,15 @@ impl Reach {
         let shipped = Tables::new(shipped)?;
         let probes: Vec<DVec3> = probes.iter().map(|probe| probe.as_dvec3()).collect();
         let is_far = |probe: &DVec3| !shipped.body.locator().holds(probe.as_vec3());
-        let far = if probes.iter().any(is_far) {
-            let options = shipped.baked.locator_options().reaching(shipped.baked.sizes_beyond(&probes));
+        let queries_beyond = probes.iter().filter(|probe| is_far(probe)).count();
+        let margin = shipped.baked.sizes_beyond(&probes);
+        let far = if queries_beyond > 0 {
+            let options = shipped.baked.locator_options().reaching(margin);
             Some(Tables::new(bake_far(shipped.baked.clone(), &options, &probes)?)?)
         } else {
             None
         };
-        Ok(Self { shipped, far })
+        Ok(Self { shipped, far, queries_beyond, margin })
     }
 
     /// The same at another effort in a tick.

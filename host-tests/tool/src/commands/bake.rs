@@ -23,6 +23,9 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+/// Maximum reach of a locator beyond the bounding box, in sizes.
+pub(super) const MAX_MARGIN: f64 = 30.0;
+
 /// Writes a model's tables as Rust source to `include!`, or as a binary file.
 ///
 /// Several patches become `pub static BODY: palpate::body::Body` and `pub const TABLE_CRC: u32`. A single patch becomes
@@ -341,7 +344,8 @@ pub(super) fn bytes(loaded: &Loaded) -> u64 {
 }
 
 fn sizes(text: &str) -> Result<f64, String> {
-    text.parse().ok().filter(|sizes| (0.0..=30.0).contains(sizes)).ok_or_else(|| "not a number from 0 to 30".to_owned())
+    let sizes = text.parse().ok().filter(|sizes| (0.0..=MAX_MARGIN).contains(sizes));
+    sizes.ok_or_else(|| format!("not a number from 0 to {MAX_MARGIN}"))
 }
 
 fn file_name(path: &Path) -> anyhow::Result<String> {

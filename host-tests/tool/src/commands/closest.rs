@@ -1,5 +1,6 @@
 //! `palpate closest`: closest points with the firmware's own code.
 
+use super::bake::MAX_MARGIN;
 use super::output::{print, write_whole};
 use super::progress;
 use crate::models::ModelFile;
@@ -20,8 +21,9 @@ use std::process::ExitCode;
 ///
 /// cold: every row by itself. The locator names the parts of patches that can own the closest point, and a second-order
 /// search runs in each. status: converged; step-limit if a search was stopped short of its minimum; far if the query is
-/// beyond the locator's reach (bake --margin), where its lists are not proved. error_bound, of a step-limit row: a bound
-/// of the error of |gap|, by a search in double precision.
+/// beyond the locator's reach, where its lists are not proved. Of a model or part this command widens the locator for
+/// such queries, as bake --margin, and prints a note; a .palp keeps its own, as do a device and Python. error_bound, of a
+/// step-limit row: a bound of the error of |gap| to the stored single-precision surface, by a search in double precision.
 ///
 /// --modes: the body deforms; every row has its own q. cold then goes on from the search with ticks of the tracker. A q beyond the
 /// budget of the file is set to it, and the row's status ends with "clamped".
@@ -89,6 +91,16 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let far = |body, options: &_, probes: &_| file.located(body, options, Some(probes), &progress);
     let reach = Reach::new(shipped, &probes, far)?.with_effort(arguments.effort);
     drop(bar);
+    if reach.queries_beyond > 0 && file.baked().is_none() {
+        eprintln!(
+            "{}: {} of {} queries lie beyond the locator's default reach: answered with a locator that reaches them, as by \
+             bake --margin {:.1}",
+            file.label,
+            reach.queries_beyond,
+            probes.len(),
+            (0.1 * (10.0 * reach.margin).ceil()).min(MAX_MARGIN)
+        );
+    }
     let solvers = reach.solvers();
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(["patch", "u", "v", "px", "py", "pz", "gap", "steps", "status", "error_bound"])?;

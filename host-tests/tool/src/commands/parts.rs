@@ -24,7 +24,7 @@ use std::time::Instant;
 /// Columns: faces and patches; largest deviation of patches and part, either way; flash bytes; bake time in processor
 /// seconds over all cores and clock seconds; fraction of the locator's leaves with a proof of the way down (`bake
 /// --table-report` has the rest). If PART.csv lies beside PART.step, with columns qx,qy,qz,dist,inside: the largest
-/// error of a cold query's distance, and the rows on the wrong side. If PART_track.csv does: the largest error at one
+/// error of a cold query's distance, with a locator that reaches every row, and the rows on the wrong side. If PART_track.csv does: the largest error at one
 /// tick per row. Last, patches for each face, the import's processor seconds, and the most memory taken so far, import or
 /// bake.
 ///

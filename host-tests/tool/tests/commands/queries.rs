@@ -9,15 +9,12 @@ fn closest(queries: &str, options: &[&str]) -> Result<(Output, Option<String>), 
     let directory = tempfile::tempdir()?;
     let (input, output) = (directory.path().join("in.csv"), directory.path().join("out.csv"));
     fs::write(&input, queries)?;
-    let run = Command::new(env!("CARGO_BIN_EXE_palpate"))
-        .args(["closest", "--model"])
-        .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("../models/table1c.toml"))
-        .arg("--queries")
-        .arg(input)
-        .arg("--out")
-        .arg(&output)
-        .args(options)
-        .output()?;
+    let mut command = Command::new(env!("CARGO_BIN_EXE_palpate"));
+    command.arg("closest").arg("--queries").arg(input).arg("--out").arg(&output).args(options);
+    if !options.contains(&"--model") {
+        command.arg("--model").arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("../models/table1c.toml"));
+    }
+    let run = command.output()?;
     Ok((run, fs::read_to_string(output).ok()))
 }
 
@@ -82,10 +79,27 @@ fn rows_that_jump_are_located_anew() -> Result<(), Box<dyn Error>> {
 }
 
 #[test]
-fn a_query_beyond_the_locator_is_said_to_be_far() -> Result<(), Box<dyn Error>> {
-    let (_, output) = closest("qx,qy,qz\n50,50,90\n50,50,90000\n", &[])?;
-    let answers = output.ok_or("no output")?;
-    let statuses: Vec<&str> = answers.lines().filter_map(|line| line.split(',').nth(8)).collect();
-    assert_eq!(statuses, ["status", "converged", "far"], "{answers}");
+fn a_query_beyond_the_locator_gets_a_wider_one_with_a_note_or_is_far() -> Result<(), Box<dyn Error>> {
+    let queries = "qx,qy,qz\n5,5,8\n5,5,60\n";
+    let statuses = |answers: &str| -> Vec<String> {
+        answers.lines().skip(1).filter_map(|line| line.split(',').nth(8).map(str::to_owned)).collect()
+    };
+    let (run, widened) = closest(queries, &[])?;
+    let (note, widened) = (String::from_utf8(run.stderr)?, widened.ok_or("no output")?);
+    assert_eq!(statuses(&widened), ["converged", "converged"], "{widened}");
+    assert!(note.contains("table1c.toml: 1 of 2 queries lie beyond the locator's default reach"), "{note}");
+    let margin = note.trim().rsplit(' ').next().ok_or("no margin")?;
+    let folder = tempfile::tempdir()?;
+    let file = folder.path().join("table1c.palp");
+    for (margin, expected) in [("0", ["converged", "far"]), (margin, ["converged", "converged"])] {
+        let mut bake = Command::new(env!("CARGO_BIN_EXE_palpate"));
+        assert!(bake.args(["bake", "table1c", "--margin", margin, "--out"]).arg(&file).output()?.status.success());
+        let (run, answers) = closest(queries, &["--model", &file.to_string_lossy()])?;
+        let answers = answers.ok_or("no output")?;
+        assert_eq!((statuses(&answers), run.stderr), (expected.map(str::to_owned).to_vec(), Vec::new()), "{answers}");
+        assert_eq!(answers.lines().last() == widened.lines().last(), margin != "0", "{answers}{widened}");
+    }
+    let (_, output) = closest("qx,qy,qz\n5,5,8\n50,50,90000\n", &[])?;
+    assert_eq!(statuses(&output.ok_or("no output")?), ["converged", "far"]);
     Ok(())
 }
