@@ -29,9 +29,14 @@ impl Body {
     ///
     /// # Errors
     /// A fault of it.
-    pub fn of(source: Source, modes: Option<&Path>, progress: &(dyn Fn(usize, usize) + Sync)) -> Result<Self, Refusal> {
+    pub fn of(
+        source: Source,
+        modes: Option<&Path>,
+        margin: f64,
+        progress: &(dyn Fn(usize, usize) + Sync),
+    ) -> Result<Self, Refusal> {
         let is_cut = matches!(&source, Source::Tables(file, _) if file.body.faces.len() > file.model.patches.len());
-        let Made { model, baked, bytes } = source.made(progress)?;
+        let Made { model, baked, bytes } = source.made(margin, progress)?;
         if let Some(path) = modes.filter(|_| is_cut) {
             // The modes' bounds are those over the model's control points, and of such a patch the file has not all.
             let says = "modes are bounded over whole patches, and tables with a divided patch lack a part of it";

@@ -31,6 +31,7 @@ impl Body {
         tolerance: f64,
         unit: &str,
         modes: Option<PathBuf>,
+        margin: f64,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Self> {
         let source = if let Ok(path) = model.extract::<PathBuf>() {
@@ -51,12 +52,12 @@ impl Body {
                 *told = Instant::now();
             }
         };
-        Ok(py.detach(|| Self::of(source, modes.as_deref(), &tell))?)
+        Ok(py.detach(|| Self::of(source, modes.as_deref(), margin, &tell))?)
     }
 
     #[staticmethod]
     fn load(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        Ok(py.detach(|| of_baked(&path).and_then(|source| Self::of(source, None, &|_, _| ())))?)
+        Ok(py.detach(|| of_baked(&path).and_then(|source| Self::of(source, None, 0.0, &|_, _| ())))?)
     }
 
     fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {

@@ -83,18 +83,26 @@ fn of_part(path: &Path, tolerance: f64) -> Result<String, Refusal> {
 }
 
 impl Source {
-    /// Bakes it, if it is not baked already; `progress` hears cells of space that are done, and all.
+    /// Bakes it, if it is not baked already, with a locator that reaches `margin` sizes beyond the bounding box, 0 for its
+    /// own choice; `progress` hears cells of space that are done, and all.
     ///
     /// # Errors
-    /// A fault of its patches, or between them.
-    pub fn made(self, progress: &(dyn Fn(usize, usize) + Sync)) -> Result<Made, Refusal> {
+    /// A fault of its patches, or between them; a margin out of range, or of tables.
+    pub fn made(self, margin: f64, progress: &(dyn Fn(usize, usize) + Sync)) -> Result<Made, Refusal> {
+        if !(0.0..=30.0).contains(&margin) {
+            return Err(Refusal::Settings(format!("margin is {margin}: give 0 to 30, in sizes of the body")));
+        }
         let (text, label) = match self {
+            Self::Tables(..) if margin > 0.0 => {
+                let says = "a .palp file has its locator already: bake its model with this margin";
+                return Err(Refusal::Settings(format!("margin is {margin}: {says}")));
+            }
             Self::Tables(file, bytes) => return Ok(Made { model: file.model, baked: file.body, bytes }),
             Self::Text(text, label) => (text, label),
         };
         let model = Model::parse(&text, &label).map_err(|error| Refusal::Model(error.to_string()))?;
         let baked = BakedBody::new(&model, &label).map_err(|error| Refusal::Model(error.to_string()))?;
-        let options = baked.locator_options();
+        let options = baked.locator_options().reaching(margin);
         let refused = |error: &dyn std::fmt::Display| Refusal::Model(format!("{label}: {error}"));
         let (baked, _) = baked.located(&options, progress).map_err(|error| refused(&error))?;
         let digest = Sha256::digest(text.as_bytes()).into();

@@ -117,10 +117,59 @@ def test_no_point_is_nearer_than_the_bound_of_the_error_says():
     assert np.isnan(body.closest(points).error_bound).all()
 
 
+def test_the_bound_of_the_error_is_of_the_tables_in_single_precision():
+    i, j = np.meshgrid(np.arange(4), np.arange(4), indexing="ij")
+    flat = np.stack([i / 30, j / 30, 0.0 * i], -1)
+    random, violations = np.random.default_rng(7), []
+    for _ in range(4):
+        net = flat + random.uniform(-0.01, 0.01, flat.shape) + random.uniform(-0.1, 0.1, 3)
+        body = palpate.Body.bake([{"degree": [3, 3], "points": net}])
+        ends = net.reshape(-1, 3)
+        points = random.uniform(ends.min(axis=0) - 0.03, ends.max(axis=0) + 0.03, (500, 3))
+        found = body.closest(points, bounded=True)
+        # Gauss-Newton in double precision on the Bezier patch itself.
+        at, nearest = found.parameters, np.full(len(points), np.inf)
+        for _ in range(30):
+            bases = [np.stack([(1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t**2 * (1 - t), t**3], -1) for t in at.T]
+            slopes = [np.stack([-3 * (1 - t) ** 2, 3 * (1 - t) * (1 - 3 * t), 3 * t * (2 - 3 * t), 3 * t**2], -1) for t in at.T]
+            pairs = [bases, [slopes[0], bases[1]], [bases[0], slopes[1]]]
+            place, along_u, along_v = (np.einsum("ni,nj,ijk->nk", *pair, net) for pair in pairs)
+            nearest = np.minimum(nearest, np.linalg.norm(points - place, axis=1))
+            along = np.stack([along_u, along_v], -1)
+            across = along.swapaxes(1, 2)
+            step = np.linalg.solve(across @ along, across @ (points - place)[..., None])
+            at = np.clip(at + step[..., 0], 0, 1)
+        violations.append((np.abs(found.gap) - found.error_bound - nearest).max() / body.size)
+    print(f"\nthe model's own surface is nearer than the bound says by {max(violations):.0e} sizes at most")
+    assert 0 < max(violations) < 2**-24
+
+
 def test_queries_beyond_the_tables_are_marked(capped_box):
     found = capped_box.closest([[0.03, 0.02, 0.05], [50.0, 50.0, 50.0]])
     assert found.far.tolist() == [False, True]
     assert found.steps is found.evaluations
+
+
+def test_a_margin_reaches_what_is_far_without_it():
+    part = ROOT / "host-tests/cad/tests/parts/s12.step"
+    rows = list(csv.DictReader(part.with_suffix(".csv").open()))
+    queries, exact = (1e-3 * np.array([[float(row[key]) for key in keys] for row in rows]) for keys in (("qx", "qy", "qz"), ["dist"]))
+    found = {margin: palpate.Body.bake(part, margin=margin).closest(queries) for margin in (0.0, 2.2)}
+    off = {margin: np.abs(np.abs(found[margin].gap) - exact[:, 0]) for margin in found}
+    far = found[0.0].far
+    print(f"\ns12: {far.sum()} of {len(rows)} points far, off by {1e3 * off[0.0][far].max():.4f} mm at most, the others by "
+          f"{1e3 * off[0.0][~far].max():.4f} mm; with a margin of 2.2 all by {1e3 * off[2.2].max():.4f} mm")  # fmt: skip
+    assert far.sum() == 20 and found[0.0].complete[far].all() and not found[2.2].far.any()
+    # By how much the import deviates from the part, by its report.
+    assert max(off[0.0][~far].max(), off[2.2].max()) < 4.93e-6 < off[0.0][far].max()
+
+
+@pytest.mark.parametrize("margin", [-0.1, 30.1, np.nan])
+def test_a_margin_out_of_range_is_refused(margin):
+    with pytest.raises(palpate.SettingsError, match="give 0 to 30, in sizes of the body"):
+        palpate.Body.bake("table1c", margin=margin)
+    with pytest.raises(palpate.SettingsError, match="a .palp file has its locator already"):
+        palpate.Body.bake(ROOT / "boards/bodies/capped_box.palp", margin=1.0)
 
 
 @pytest.mark.parametrize(

@@ -39,6 +39,7 @@ class Body:
         tolerance: float,
         unit: str,
         modes: str | PathLike[str] | None,
+        margin: float,
         progress: Callable[[int, int], None] | None,
     ) -> Body: ...
     @staticmethod

@@ -13,16 +13,18 @@ class Closest(NamedTuple):
 
     patch : (n,) uint32 -- index of the model's patch, see `Body.patches`.
     parameters : (n, 2) float64 -- (u, v) on that patch, 0 to 1.
-    point : (n, 3) float64 -- the point, m, in the frame of the model.
+    point : (n, 3) float64 -- the point, m, in the frame of the model. Along the surface it was up to 8e-4 sizes off
+        on golden probes, where the distance hardly changes: four ticks of a `Body.tracker` at rest leave 2e-7.
     gap : (n,) float64 -- the distance, m; negative inside a closed body, unless it was asked for without a sign.
     face : (n,) uint32 -- index of the body's face; a patch may be several.
     on_face : (n, 2) float32 -- (u, v) on the face, as the firmware has them.
     evaluations : (n,) uint32 -- evaluations of patches spent; `steps`, as the command's column, is the same.
     complete : (n,) bool -- whether every candidate was searched to its end; with modes, and the query is not `far`.
     far : (n,) bool -- whether the query lies beyond the tables: it takes the list of the nearest cell, which is not
-        proved to hold the closest point from there.
+        proved to hold the closest point from there, even if `complete`. `Body.bake` with a larger `margin` reaches it.
     clamped : (n,) bool -- whether a q was beyond its budget, and was set to it.
-    error_bound : (n,) float64 -- how much nearer another point may be, m, proved; NaN unless asked for.
+    error_bound : (n,) float64 -- how much nearer another point of the stored single-precision tables may be, m, proved;
+        NaN unless asked for. The surface of your double-precision numbers may be some 6e-8 sizes nearer.
     """
 
     patch: NDArray[np.uint32]
