@@ -42,8 +42,8 @@ impl Printed {
     }
 }
 
-/// Runs `closest` and checks what holds for every row, in any mode.
-fn closest(model: &str, queries: &str, options: &[&str]) -> Result<Vec<(ClosestRow, Printed)>, Box<dyn Error>> {
+/// Golden rows, and what `closest` prints for them.
+fn rows(model: &str, queries: &str, options: &[&str]) -> Result<Vec<(ClosestRow, Printed)>, Box<dyn Error>> {
     let run = Command::new(env!("CARGO_BIN_EXE_palpate"))
         .args(["closest", "--model"])
         .arg(model_file(model))
@@ -56,9 +56,15 @@ fn closest(model: &str, queries: &str, options: &[&str]) -> Result<Vec<(ClosestR
         csv::Reader::from_reader(run.stdout.as_slice()).deserialize().collect::<Result<_, _>>()?;
     let golden: Vec<ClosestRow> = golden::read(&data(queries))?;
     assert_eq!(printed.len(), golden.len());
+    Ok(golden.into_iter().zip(printed).collect())
+}
+
+/// Runs `closest` and checks what holds for every row, in any mode.
+fn closest(model: &str, queries: &str, options: &[&str]) -> Result<Vec<(ClosestRow, Printed)>, Box<dyn Error>> {
+    let rows = rows(model, queries, options)?;
     let model = Model::read(&model_file(model))?;
     let patch = &model.patches[0];
-    for (golden, printed) in golden.iter().zip(&printed) {
+    for (golden, printed) in &rows {
         assert_eq!(printed.patch, "S");
         // p is the surface at the printed (u, v): to the accuracy of the f32 evaluation.
         let on_surface = OraclePoint::evaluate(patch, printed.u, printed.v).point * model.unit.per_metre();
@@ -67,12 +73,17 @@ fn closest(model: &str, queries: &str, options: &[&str]) -> Result<Vec<(ClosestR
         let gap = printed.point().distance(golden.query());
         assert!((gap - printed.gap).abs() <= 1e-8 * SIZE, "gap {} but distance {gap}", printed.gap);
     }
-    Ok(golden.into_iter().zip(printed).collect())
+    Ok(rows)
 }
 
 /// By how much the distance to the printed point exceeds the golden one, relative to the size; negative if nearer.
 fn excess((golden, printed): &(ClosestRow, Printed)) -> f64 {
     (printed.point().distance(golden.query()) - golden.distance) / SIZE
+}
+
+/// How far the printed point lies from the golden one, relative to the size.
+fn aside((golden, printed): &(ClosestRow, Printed)) -> f64 {
+    printed.point().distance(golden.point()) / SIZE
 }
 
 #[test]
@@ -117,7 +128,7 @@ fn the_oracle_agrees_with_the_golden_points() -> Result<(), Box<dyn Error>> {
 
 #[test]
 fn cold_queries_find_the_closest_point_of_the_whole_patch() -> Result<(), Box<dyn Error>> {
-    let (mut greatest, mut dearest) = (0.0_f64, 0);
+    let (mut greatest, mut farthest, mut dearest) = (0.0_f64, 0.0_f64, 0);
     for file in ["table1_near", "table1_box", "table1c_near", "table1c_box"] {
         let model_name = file.split('_').next().unwrap_or_default();
         let rows = closest(&format!("{model_name}.toml"), &format!("{file}.csv"), &["--mode", "cold"])?;
@@ -127,8 +138,18 @@ fn cold_queries_find_the_closest_point_of_the_whole_patch() -> Result<(), Box<dy
         println!("{file}: {worst:.1e} of the size, evaluations median {} worst {}", steps[250], steps[499]);
         assert!(worst <= 1e-5, "{file}: off by {worst:e} of the size");
         assert!(rows.iter().all(|(_, printed)| printed.status == "converged"), "{file}");
+        for row in &rows {
+            // The distance grows with the square of the way along the surface: most slowly where that is flat.
+            let (aside, distance) = (aside(row), row.0.distance / SIZE);
+            assert!(aside * aside <= 2.0 * (distance + aside) * 3e-7, "{file}: {}: {aside:e} aside", row.0.query());
+            farthest = farthest.max(aside);
+        }
         (greatest, dearest) = (greatest.max(worst), dearest.max(steps[499]));
     }
+    measured(
+        "cold, 2,000 golden probes of Table I and its companion: maximum error of the point, along the surface",
+        format!("{farthest:.1e}"),
+    );
     measured("cold, 2,000 golden probes of Table I and its companion: maximum error", format!("{greatest:.1e}"));
     measured("cold, 2,000 golden probes of Table I and its companion: evaluations at most", dearest);
     Ok(())
@@ -152,26 +173,30 @@ fn tracking_follows_the_probe_with_one_step_a_row_and_better_with_four() -> Resu
     Ok(())
 }
 
+#[test]
+fn four_ticks_at_rest_find_the_point_along_the_surface_too() -> Result<(), Box<dyn Error>> {
+    let mut worst: f64 = 0.0;
+    for file in ["table1c_near.csv", "table1c_box.csv"] {
+        let rows = rows("table1c.toml", file, &["--mode", "track", "--ticks", "4"])?;
+        // The first row is cold.
+        worst = rows[1..].iter().map(aside).fold(worst, f64::max);
+    }
+    measured("the companion's point, along the surface, after four ticks: maximum error", format!("{worst:.1e}"));
+    assert!(worst <= 3e-7, "off by {worst:e} of the size");
+    Ok(())
+}
+
 /// Cold queries of a body against its golden points. `size` in the model's unit.
 fn bodies(model: &str, queries: &str, size: f64, tolerance: f64) -> Result<(), Box<dyn Error>> {
-    let run = Command::new(env!("CARGO_BIN_EXE_palpate"))
-        .args(["closest", "--model"])
-        .arg(model_file(model))
-        .arg("--queries")
-        .arg(data(queries))
-        .output()?;
-    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
-    let printed: Vec<Printed> =
-        csv::Reader::from_reader(run.stdout.as_slice()).deserialize().collect::<Result<_, _>>()?;
-    let rows: Vec<ClosestRow> = golden::read(&data(queries))?;
-    assert_eq!((printed.len(), rows.len()), (500, 500));
+    let rows = rows(model, queries, &[])?;
+    assert_eq!(rows.len(), 500);
     let mut worst: f64 = 0.0;
-    for (row, printed) in rows.iter().zip(&printed) {
+    for (row, printed) in &rows {
         let off = (printed.gap.abs() - row.distance).abs() / size;
         assert!(off <= tolerance && printed.status == "converged", "{}: off by {off:e}", row.query());
         worst = worst.max(off);
     }
-    let dearest = printed.iter().map(|row| row.steps).max().unwrap_or_default();
+    let dearest = rows.iter().map(|(_, row)| row.steps).max().unwrap_or_default();
     measured(&format!("cold, 500 golden probes of `{model}`: maximum error"), format!("{worst:.1e}"));
     measured(&format!("cold, 500 golden probes of `{model}`: evaluations at most"), dearest);
     Ok(())
