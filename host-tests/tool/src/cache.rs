@@ -43,7 +43,10 @@ impl Evidence {
 impl fmt::Display for Evidence {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { bound_mm, sampled } = *self;
-        write!(formatter, "worst-case error of a cold query: {bound_mm:.4} mm (proved bound, not measured)")?;
+        write!(
+            formatter,
+            "worst-case error of a cold query: {bound_mm:.4} mm (proved bound if it ends at a second minimum, not measured)"
+        )?;
         if sampled > 0.0 {
             let percent = 100.0 * sampled;
             write!(

@@ -8,6 +8,7 @@ use palpate_sim::zwidth::{Loop, Slice, in_words, sweep};
 use palpate_tool::budgets::Budget;
 use palpate_tool::devices::DEVICES;
 use palpate_tool::firmware::Board;
+use palpate_tool::models::SHIPPED;
 use palpate_truth::measured::{self, Row, grouped};
 
 /// Where the counted instructions begin and what comes after them.
@@ -140,4 +141,14 @@ fn the_models_take_the_bytes_that_were_measured() {
         count += 1;
     }
     assert!(count >= 7, "{count} models");
+}
+
+#[test]
+fn the_units_of_the_models_are_listed() {
+    let of = |unit: &'static str| SHIPPED.iter().filter(move |(_, text)| text.contains(unit));
+    let cm: Vec<_> = of("unit = \"cm\"").map(|(name, _)| format!("`{name}`")).collect();
+    assert_eq!(of("unit = \"mm\"").count() + cm.len(), SHIPPED.len());
+    let [first, second, last] = &cm[..] else { panic!("{cm:?}") };
+    let line = format!("Units: mm; {first}, {second} and {last} cm.");
+    assert!(text("docs/reference/models.md").contains(&line), "docs/reference/models.md: {line}");
 }
