@@ -16,7 +16,7 @@ use std::process::ExitCode;
 /// golden probes near the surface) and following a probe (10,000 rows of a smooth path, and 2,000 golden rows). A miss
 /// is a distance wrong by more than 1e-4 of the patch's size, or no answer.
 ///
-/// Instructions are counted by valgrind per query and repeat exactly on one machine; it is installed if that needs no
+/// Instructions are counted by valgrind per query and repeat exactly with one compiler; it is installed if that needs no
 /// password. Nanoseconds are the quickest of five runs of each query.
 ///
 /// The first run compiles the peers, which takes minutes.
@@ -31,7 +31,7 @@ pub struct Arguments {
     /// Rows of the path: servo ticks for its 1.2 m
     #[arg(long, default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(100..=1_000_000))]
     rows: u32,
-    /// Skip the peers, which take most of the time
+    /// Skip the peers, which take most of the time; Newton's counts are then some percent higher
     #[arg(long)]
     without_peers: bool,
     /// Race on this emulated board
