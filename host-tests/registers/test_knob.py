@@ -25,8 +25,8 @@ from with_host import HELLO, WIRE
 LED, TURN = 800, 2_200
 
 
-# A part of a feel that this motor bears, a damping of 0.1 mN·m·s/rad, and the page's own frame to keep the feel.
-PART = telemetry.framed(bytes([6, 0xAF, 2, 12, 5]) + struct.pack("<f", 1e-4))
+# A part of a feel that this motor bears, a damping of 1 mN·m·s/rad, and the page's own frame to keep the feel.
+PART = telemetry.framed(bytes([6, 0xAF, 2, 12, 5]) + struct.pack("<f", 1e-3))
 KEEP = bytes.fromhex(re.search(r"## HostMessage: keep the feel\n.*?Frame: `(.*?)`", WIRE.read_text(), re.DOTALL)[1])
 # The host's own feel comes after the table's; what became of the stored one (docs/reference/wire.md, "Dial").
 OWN, NOTHING_KEPT, USED, REFUSED = 6, 0, 1, 2

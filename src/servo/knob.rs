@@ -170,9 +170,10 @@ impl fmt::Display for KnobError {
             Self::Undamped { asked_n_m_s_per_rad: asked, needed_n_m_s_per_rad: needed } => write!(
                 formatter,
                 "with it a dial that is let go of would ring: the feel is damped by {:.2} mN·m·s/rad and stiff enough to \
-                 need {:.2}; set damping first, or weaken a part",
+                 need {:.2}; raise the damping first, or weaken a part",
                 1e3 * asked,
-                1e3 * needed
+                // Rounded up: as much is enough. The cast saturates.
+                ((1e5 * needed + 0.9999) as u32) as f32 / 100.0
             ),
             Self::Missing { asked, last } => write!(formatter, "there is no feel {asked}: choose 0 to {last}"),
             _ => formatter.write_str(self.message()),

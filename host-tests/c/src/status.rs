@@ -162,13 +162,13 @@ impl Status {
             Self::KnobDamping => c"the feel's damping must be finite and not negative",
             Self::KnobFriction => c"friction needs a torque that is finite and not negative, and a rate that is positive",
             Self::KnobNotch => c"a notch needs a finite place, a width from 1e-4 rad to half a turn, and no negative torque",
-            Self::KnobMaxStiffness => c"the feel is stiffer than max_stiffness times radius squared: lower a torque or widen a pitch",
+            Self::KnobMaxStiffness => c"the feel is stiffer than max_stiffness times radius squared: lower a stiffness or a torque, or widen a pitch",
             Self::KnobMaxDamping => c"the feel damps more than max_damping times radius squared: lower damping or friction",
             Self::KnobMaxTorque => c"the feel's torques add up to more than max_force times radius: lower one",
             Self::KnobReleaseRate => c"the dial's release rate must be positive and finite",
             Self::KnobFar => c"the dial is more than an eighth of a turn from there: turn it there first, or give a nearer position",
             Self::KnobMargin => c"min_margin of a dial must be at most 0.8 of its radius, or its force would never be whole",
-            Self::KnobUndamped => c"the feel is too stiff for its damping, a dial that is let go of would ring: set damping first, or weaken a part",
+            Self::KnobUndamped => c"the feel is too stiff for its damping, a dial that is let go of would ring: raise the damping first, or weaken a part",
         }
     }
 

@@ -283,6 +283,8 @@ impl Knob {
             {
                 let mut world = knob.world();
                 (world.resets, world.enable) = (true, false);
+                // The rotor is aligned without a hand on it.
+                world.dial.hold(Fingers::NONE);
             }
             spend_through(device, 0.1)?;
             start(device, &knob)

@@ -62,7 +62,7 @@ def test_a_setting_beyond_the_motor_is_refused_with_its_limit_and_changes_nothin
         ("spring", (0.02, 0.01, 3.0), r"spring was refused .* turn the dial by .* rad .*°., and .* 0\.79 rad: turn"),
         ("friction", (float("nan"),), r"friction was refused .* finite"),
         ("notch", (0.0, 4.0, 0.01), r"notch was refused .* at most half a turn"),
-        ("notch", (0.1, 0.1, 0.015), r"notch was refused .* would ring: .* damped by 0\.30 .* need 0\.91; set damping first"),
+        ("notch", (0.1, 0.1, 0.015), r"notch was refused .* would ring: .* damped by 0\.30 .* need 0\.92; raise the damping first"),
     ]:
         with pytest.raises(palpate.SettingsError, match=says):
             getattr(knob, part)(*numbers)
@@ -139,6 +139,7 @@ def test_a_feel_is_kept_once_the_button_is_up(knob):
     knob.press(False)
     knob.read(0.1)
     knob.keep()
+    knob.hold(0.3)
     knob.reset()
     told = knob.read(0.1)
     assert set(told.kept) == {1} and set(told.feel) == {6}

@@ -120,13 +120,14 @@ class Knob:
         self._native.press(pressed)
 
     def hold(self, angle: float, *, seconds: float = 0.2, stiffness: float = 50.0, damping: float = 0.05) -> None:
-        """Simulated: a hand takes the shaft to `angle`, rad, as `read` counts it, within `seconds`, s, and holds it: to
-        0.4 degrees, the encoder's error. By default it is a clamp; fingers have a `stiffness` of 0.12 N·m/rad and a
-        `damping` of 0.002 N·m·s/rad."""
+        """Simulated: a hand takes the shaft to `angle`, rad, as `read` counts it, in `seconds`, s, which pass in this call
+        (`trace` has its ticks, `read` the reports after it), and holds it: to 0.4 degrees, the encoder's error. By default
+        it is a clamp; fingers have a `stiffness` of 0.12 N·m/rad and a `damping` of 0.002 N·m·s/rad."""
         self._native.hold(angle, seconds, stiffness, damping)
 
     def reset(self) -> None:
-        """Simulated: the board is reset, aligns its rotor again and gives force: with the kept feel, if there is one."""
+        """Simulated: no hand; the board is reset, aligns its rotor again and gives force: with the kept feel, if there
+        is one."""
         self._native.reset()
 
     def release(self) -> None:

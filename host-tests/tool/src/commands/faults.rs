@@ -106,7 +106,10 @@ fn print(row: &Failure, subject: &Subject) -> bool {
         (true, Reaction::Hold, _) => "off, hold".to_owned(),
         (true, Reaction::NoStart, _) => "no start".to_owned(),
         (false, _, Some(excuse)) => format!("not detected: {excuse}"),
-        (false, ..) => format!("NOT AS STATED: {fault:?}"),
+        (false, ..) => {
+            let fault = fault.map_or_else(|| "no fault".to_owned(), |fault| format!("{}: {fault}", fault.code()));
+            format!("NOT AS STATED: {fault}")
+        }
     };
     println!("{head}{:>12}{time:>10}{motion:>11}  {verdict}", row.within_ms);
     is_as_stated || excuse.is_some()

@@ -137,7 +137,7 @@ pub(super) const TABLE: &[Failure] = &[
     gap(
         "hand",
         "it lets go of an arm whose weight is wrong by 10 %",
-        "the arm sinks below the speed limits, see below; commissioning weighs",
+        "the arm sinks, more slowly than the speed limits; commissioning weighs",
         Some((Setting::Heavier, sinks)),
     ),
 ];

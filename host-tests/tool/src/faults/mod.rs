@@ -210,7 +210,7 @@ pub fn coverage() -> String {
     let count = |is: fn(&Failure) -> bool| table().filter(|row| is(row)).count();
     let (all, detected) = (count(|_| true), count(Failure::is_detected));
     let mut text = format!(
-        "Diagnostic coverage, by count: {detected} of {all} failures detected, {} %, each planted in a simulated arm or knob. In {} the chip's registers take part: there they are a model, and the test `test_…` reads them in the boards' images.",
+        "Diagnostic coverage of the whole table, by count: {detected} of {all} failures detected, {} %, planted in a simulated arm or knob wherever that has the part. In {} the chip's registers take part: there they are a model, and the test `test_…` reads them in the boards' images.",
         (100 * detected + all / 2) / all,
         count(Failure::is_in_registers)
     );

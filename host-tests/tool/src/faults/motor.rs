@@ -55,6 +55,12 @@ pub(super) const TABLE: &[Failure] = &[
     ),
     gap(
         "motor",
+        "a capstan cable or belt breaks, and the encoder goes on with the motor",
+        "the joint is limp; under force its motor, without load, runs to the limits of rate or range",
+        None,
+    ),
+    gap(
+        "motor",
         "a winding of an arm opens or shorts",
         "an arm measures no current; its amplifier protects itself",
         Some((Setting::Pressed, |touch| {

@@ -139,7 +139,10 @@ pub const FORMS: [(&str, &str); 37] = [
     ("forget-feel", "clears the stored one, confirmed in the same way"),
     ("press", "presses the enable button of a simulated or emulated device"),
     ("release", "releases it"),
-    ("reset", "resets the simulated knob (--host); its hand comes back after 4 s: `press` for 2 s, `release`, `press`"),
+    (
+        "reset",
+        "resets the simulated knob (--host); its hand is away for 4 s: at once `press` for 2 s, `release`, `press`",
+    ),
     ("wait SECONDS", "the next line of a file waits"),
     ("stop", "stops the device until it is reset"),
     ("ack", "goes on after a reset by the watchdog or a brown-out"),
