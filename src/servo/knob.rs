@@ -116,8 +116,8 @@ pub enum KnobError {
 }
 
 /// The damping that a feel needs for each N·m/rad of its stiffness, N·m·s/rad: how late a gimbal motor's torque comes at
-/// 4 kHz, by sensor, winding, computation and hold, and a fifth more. So damped, a dial whose friction is 0.2 mN·m rests
-/// even where the motor's limit cuts the damping off. A lower servo rate needs more.
+/// 4 kHz, by sensor, winding, computation and hold, and a fifth more. So damped, the simulated dial, of 1 mN·m of friction,
+/// rests even where the motor's limit cuts the damping off. A lower servo rate needs more.
 pub const DAMPING_PER_STIFFNESS_S: f32 = 7e-4;
 
 /// How far a part of a feel that a host sets may take the dial, radians: an eighth of a turn.
@@ -246,8 +246,7 @@ impl Knob {
     /// The first number that is refused.
     pub const fn try_new(device: &Device<Dial, 1>, feels: &'static [Feel], let_go: f32) -> Result<Self, KnobError> {
         let radius = device.kinematics.radius_m;
-        let (limit, full) = (device.max_force_n * radius, device.motors[0].torque_at_full_n_m);
-        let full = if full < 0.0 { -full } else { full };
+        let (limit, full) = (device.max_force_n * radius, device.motors[0].torque_at_full_n_m.abs());
         let most = if limit < full { limit } else { full };
         if feels.is_empty() || feels.len() > 255 {
             return Err(KnobError::Feels);

@@ -128,7 +128,7 @@ fn the_oracle_agrees_with_the_golden_points() -> Result<(), Box<dyn Error>> {
 
 #[test]
 fn cold_queries_find_the_closest_point_of_the_whole_patch() -> Result<(), Box<dyn Error>> {
-    let (mut greatest, mut farthest, mut dearest) = (0.0_f64, 0.0_f64, 0);
+    let (mut maximum, mut farthest, mut longest) = (0.0_f64, 0.0_f64, 0);
     for file in ["table1_near", "table1_box", "table1c_near", "table1c_box"] {
         let model_name = file.split('_').next().unwrap_or_default();
         let rows = closest(&format!("{model_name}.toml"), &format!("{file}.csv"), &["--mode", "cold"])?;
@@ -144,14 +144,14 @@ fn cold_queries_find_the_closest_point_of_the_whole_patch() -> Result<(), Box<dy
             assert!(aside * aside <= 2.0 * (distance + aside) * 3e-7, "{file}: {}: {aside:e} aside", row.0.query());
             farthest = farthest.max(aside);
         }
-        (greatest, dearest) = (greatest.max(worst), dearest.max(steps[499]));
+        (maximum, longest) = (maximum.max(worst), longest.max(steps[499]));
     }
     measured(
         "cold, 2,000 golden probes of Table I and its companion: maximum error of the point, along the surface",
         format!("{farthest:.1e}"),
     );
-    measured("cold, 2,000 golden probes of Table I and its companion: maximum error", format!("{greatest:.1e}"));
-    measured("cold, 2,000 golden probes of Table I and its companion: evaluations at most", dearest);
+    measured("cold, 2,000 golden probes of Table I and its companion: maximum error", format!("{maximum:.1e}"));
+    measured("cold, 2,000 golden probes of Table I and its companion: evaluations at most", longest);
     Ok(())
 }
 
