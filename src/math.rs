@@ -34,8 +34,8 @@ pub fn inverse_sqrt_from_below(x: f32) -> f32 {
     y * (1.5 - half * y * y)
 }
 
-/// Square root. About 25 instructions, against 51 for `libm::sqrtf`, which has no Cortex-M path; inline assembly would
-/// need `unsafe`.
+/// Square root. 45 instructions with its call, against 62 for `libm::sqrtf` (`cargo palpate budgets`), which has no
+/// Cortex-M path; inline assembly would need `unsafe`.
 ///
 /// Error at most 2 units in the last place; exact for 0 and infinity; 0 below the normal numbers; NaN for a negative
 /// `x` and for a NaN.

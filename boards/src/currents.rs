@@ -73,7 +73,7 @@ impl CurrentWatch {
             return Err(CurrentFault::Over);
         }
         if most > open_a {
-            let widths = Modulation::IDEAL.widths(Field { angle: field, duty: Duty::FULL });
+            let widths = Modulation::IDEAL.widths(Field::at_rest(field), Duty::FULL);
             let mean = (widths[0] + widths[1] + widths[2]) / 3.0;
             for ((open, current), width) in self.open.iter_mut().zip([a, b, c]).zip(widths) {
                 // The field needs more than a third of its amplitude, 0.577, of this phase.
@@ -116,9 +116,9 @@ impl<D, C> CurrentWatched<D, C> {
 
 impl<D: Drives<1>, C: PhaseCurrents> Drives<1> for CurrentWatched<D, C> {
     #[inline]
-    fn aim(&mut self, fields: [ElectricalAngle; 1]) {
+    fn aim(&mut self, fields: [Field; 1]) {
         let [field] = fields;
-        self.field = Some(field);
+        self.field = Some(field.angle);
         self.drives.aim(fields);
     }
 

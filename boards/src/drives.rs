@@ -3,13 +3,13 @@
 use crate::NotObeyed;
 use crate::interlock::ticks;
 use embedded_hal::digital::OutputPin;
-use palpate::device::drive::Drive;
-use palpate::device::{Duty, ElectricalAngle};
+use palpate::device::Duty;
+use palpate::device::drive::{Drive, Field};
 
 /// The drives of all joints, as one.
 pub trait Drives<const JOINTS: usize> {
-    /// Where the field of each motor is for the duties that follow; those without phases take no notice.
-    fn aim(&mut self, _: [ElectricalAngle; JOINTS]) {}
+    /// The field of each motor for the duties that follow; those without phases take no notice.
+    fn aim(&mut self, _: [Field; JOINTS]) {}
 
     /// Gives each its duty, and enables it.
     ///
@@ -36,7 +36,7 @@ fn obeyed(all: bool) -> Result<(), NotObeyed> {
 
 impl<D: Drive, const JOINTS: usize> Drives<JOINTS> for [D; JOINTS] {
     #[inline]
-    fn aim(&mut self, fields: [ElectricalAngle; JOINTS]) {
+    fn aim(&mut self, fields: [Field; JOINTS]) {
         for (drive, field) in self.iter_mut().zip(fields) {
             drive.aim(field);
         }
@@ -64,7 +64,7 @@ impl<D: Drive, const JOINTS: usize> Drives<JOINTS> for [D; JOINTS] {
 /// Three whose channels are types of their own.
 impl<A: Drive, B: Drive, C: Drive> Drives<3> for (A, B, C) {
     #[inline]
-    fn aim(&mut self, [a, b, c]: [ElectricalAngle; 3]) {
+    fn aim(&mut self, [a, b, c]: [Field; 3]) {
         self.0.aim(a);
         self.1.aim(b);
         self.2.aim(c);
@@ -97,7 +97,7 @@ impl<D, E> Switched<D, E> {
 
 impl<D: Drives<JOINTS>, E: OutputPin, const JOINTS: usize> Drives<JOINTS> for Switched<D, E> {
     #[inline]
-    fn aim(&mut self, fields: [ElectricalAngle; JOINTS]) {
+    fn aim(&mut self, fields: [Field; JOINTS]) {
         self.drives.aim(fields);
     }
 
@@ -140,7 +140,7 @@ impl<D, F> Breakable<D, F> {
 
 impl<D: Drives<JOINTS>, F: Fn() -> bool, const JOINTS: usize> Drives<JOINTS> for Breakable<D, F> {
     #[inline]
-    fn aim(&mut self, fields: [ElectricalAngle; JOINTS]) {
+    fn aim(&mut self, fields: [Field; JOINTS]) {
         self.drives.aim(fields);
     }
 
@@ -182,7 +182,7 @@ impl<D, F> ReadBack<D, F> {
 
 impl<D: Drives<JOINTS>, F: Fn() -> bool, const JOINTS: usize> Drives<JOINTS> for ReadBack<D, F> {
     #[inline]
-    fn aim(&mut self, fields: [ElectricalAngle; JOINTS]) {
+    fn aim(&mut self, fields: [Field; JOINTS]) {
         self.drives.aim(fields);
     }
 

@@ -99,8 +99,9 @@ pub struct VoltageFeed {
     pub current_at_full_a: f32,
     /// Turns of the motor for one of the joint, `N`; negative where it turns the other way.
     pub ratio: f32,
-    /// The compensated fraction of the back-EMF, 0 to 1. Below 1, so that an error in `k` or in the rate cannot
-    /// accelerate the motor; the uncompensated rest brakes.
+    /// The compensated fraction `β` of the back-EMF, 0 to 1; the uncompensated rest brakes. Times `k` as stated over the
+    /// real one it must stay below 1, or a motor without friction drives itself once it turns: 0.8 bears a `k` stated a
+    /// quarter too high.
     pub back_emf_fraction: f32,
 }
 
@@ -113,6 +114,8 @@ impl VoltageFeed {
     /// of the resistance measured between two wires. `k` follows from `rpm_per_volt` (KV), the speed at which the
     /// turned motor generates one volt between two wires: `k = 30/(π KV √2)`. Along the magnets there is no voltage,
     /// and at a dial's speeds next to no current either.
+    ///
+    /// Six tenths of the back-EMF are compensated: sellers round `rpm_per_volt`, and warm magnets are weaker.
     pub const fn three_phase(supply: f32, phase_resistance: f32, rpm_per_volt: f32, current_at_full: f32) -> Self {
         Self {
             supply_v: supply,
@@ -121,7 +124,7 @@ impl VoltageFeed {
             torque_constant_n_m_per_a: 30.0 / (core::f32::consts::PI * rpm_per_volt) * core::f32::consts::FRAC_1_SQRT_2,
             current_at_full_a: current_at_full,
             ratio: 1.0,
-            back_emf_fraction: 0.8,
+            back_emf_fraction: 0.6,
         }
     }
 

@@ -3,7 +3,7 @@
 //! A [`Duty`] is a fraction of full torque. A current-controlled amplifier takes it as it is ([`SetPointDrive`]); a
 //! bare bridge gives a voltage ([`HBridge`]), so the duty first passes a [`VoltageFeed`], which compensates resistance
 //! and back-EMF. Three bridges that make the field of a motor with three phases ([`ThreePhase`]) are fed the same way,
-//! and also get the field's angle.
+//! and also get the field.
 
 mod direction;
 mod feed;
@@ -25,7 +25,7 @@ pub use set_point::SetPointDrive;
 pub use set_point_range::{SetPointRange, SetPointRangeError};
 pub use three_phase::ThreePhase;
 
-use super::{Duty, ElectricalAngle};
+use super::Duty;
 use thiserror::Error;
 
 /// Why a drive did not take a command. `W` is the error of the pulse-width output, `P` of the pin.
@@ -38,7 +38,7 @@ pub enum DriveError<W, P> {
     /// The enable pin, or a bridge's direction pin.
     #[error("the pin failed")]
     Pin(P),
-    /// The direction pin of an amplifier failed, or the field's angle was never set.
+    /// The direction pin of an amplifier failed, or the field was never set.
     #[error("the direction failed")]
     Direction,
 }
@@ -48,8 +48,8 @@ pub trait Drive {
     /// The error of a pin or pulse-width output.
     type Error;
 
-    /// Where the field is that the duties from now on make. A motor that has no phases takes no notice.
-    fn aim(&mut self, _: ElectricalAngle) {}
+    /// The field that the duties from now on make. A motor that has no phases takes no notice.
+    fn aim(&mut self, _: Field) {}
 
     /// Drives the motor at a duty.
     ///

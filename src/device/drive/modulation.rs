@@ -1,6 +1,7 @@
 //! From a duty and the angle of the field to the pulse widths of three phases.
 
 use super::Field;
+use crate::device::Duty;
 use crate::math::{saturate, sin_cos};
 
 /// Full duty, as amplitude of a phase in shares of the supply: `1/√3`, the most that a sine can have where the star
@@ -17,6 +18,10 @@ pub struct Modulation {
     pub dead_fraction: f32,
     /// The phase voltage, as a share of the supply, whose current is as large as half of its ripple. Below it the
     /// current has both signs within a period, and less and less of the dead time shows.
+    ///
+    /// `R / (8 L f)` with a phase's resistance and inductance, half of those between two wires, at a pulse frequency
+    /// `f`: a leg at half width drives a ripple of `V / (4 L f)` against a star point at half of the supply `V`. Legs
+    /// that switch together drive less. A value that is too large compensates less at small currents.
     pub ripple_fraction: f32,
 }
 
@@ -30,14 +35,15 @@ impl Modulation {
     /// widths of space-vector modulation (J. Holtz, *Pulsewidth modulation for electronic power conversion*, Proc. IEEE
     /// 82, 1994), whose full duty is `1/√3` of the supply in place of ½.
     ///
-    /// The dead time's share goes with the sign of each phase's current. At a knob's speeds that is the sign of its
-    /// voltage, for there is next to no back-EMF.
+    /// The dead time's share goes with each phase's current: with the part of its voltage that does not meet back-EMF.
+    /// By the whole voltage's sign a dial without torque would be driven on by the compensation of its own back-EMF.
     #[inline]
-    pub fn widths(&self, field: Field) -> [f32; 3] {
+    pub fn widths(&self, field: Field, duty: Duty) -> [f32; 3] {
         let (sine, cosine) = sin_cos(field.angle.radians());
-        let amplitude = field.duty.fraction() * FULL;
-        let (along, across) = (amplitude * cosine, amplitude * sine * HALF_ROOT_THREE);
-        let phases = [along, across - 0.5 * along, -across - 0.5 * along];
+        let across = sine * HALF_ROOT_THREE;
+        let unit = [cosine, across - 0.5 * cosine, -across - 0.5 * cosine];
+        let amplitude = duty.fraction() * FULL;
+        let phases = unit.map(|share| amplitude * share);
         let mut lowest = phases[0];
         let mut highest = phases[0];
         for phase in phases {
@@ -45,9 +51,10 @@ impl Modulation {
             highest = if phase > highest { phase } else { highest };
         }
         let middle = 0.5 - 0.5 * (lowest + highest);
-        phases.map(|phase| {
-            let made_up = self.dead_fraction * saturate(phase / self.ripple_fraction, -1.0, 1.0);
-            saturate(phase + middle + made_up, 0.0, 1.0)
+        let driving = (duty.fraction() - field.back_emf.fraction()) * FULL / self.ripple_fraction;
+        unit.map(|share| {
+            let made_up = self.dead_fraction * saturate(driving * share, -1.0, 1.0);
+            saturate(amplitude * share + middle + made_up, 0.0, 1.0)
         })
     }
 }
@@ -68,7 +75,7 @@ mod tests {
         let (mut lowest, mut highest) = (1.0_f32, 0.0_f32);
         for duty in [Duty::FULL, Duty(-32_767), Duty(1_234), Duty::ZERO] {
             for angle in (0..=u16::MAX).step_by(17) {
-                let widths = Modulation::IDEAL.widths(Field { angle: ElectricalAngle(angle), duty });
+                let widths = Modulation::IDEAL.widths(Field::at_rest(ElectricalAngle(angle)), duty);
                 let [x, y] = vector(widths);
                 let (sine, cosine) = (f64::from(angle) / 65_536.0 * core::f64::consts::TAU).sin_cos();
                 let size = f64::from(duty.fraction());
@@ -80,17 +87,22 @@ mod tests {
             }
         }
         assert!(lowest < 1e-4 && highest > 1.0 - 1e-4, "{lowest} {highest}");
-        assert_eq!(Modulation::IDEAL.widths(Field::default()), [0.5; 3]);
+        assert_eq!(Modulation::IDEAL.widths(Field::default(), Duty::ZERO), [0.5; 3]);
     }
 
     #[test]
-    fn dead_time_is_made_up_for_with_the_sign_of_each_phase() {
-        let field = Field { angle: ElectricalAngle(0), duty: Duty(8_000) };
-        let plain = Modulation::IDEAL.widths(field);
-        let made_up = Modulation { dead_fraction: 0.01, ripple_fraction: 0.02 }.widths(field);
-        for (phase, sign) in [1.0, -1.0, -1.0].into_iter().enumerate() {
-            assert!((made_up[phase] - plain[phase] - sign * 0.01).abs() < 1e-6, "{phase}");
+    fn dead_time_is_made_up_for_with_the_sign_of_each_current() {
+        const DEAD: Modulation = Modulation { dead_fraction: 0.01, ripple_fraction: 0.02 };
+        // Volts of 8,000, and the signs that the current of the first phase and of the others then has: more volts than
+        // the back-EMF, the same, and fewer.
+        for (back_emf, signs) in [(0, [1.0, -1.0, -1.0]), (8_000, [0.0; 3]), (16_000, [-1.0, 1.0, 1.0])] {
+            let field = Field { angle: ElectricalAngle(0), back_emf: Duty(back_emf) };
+            let plain = Modulation::IDEAL.widths(field, Duty(8_000));
+            let made_up = DEAD.widths(field, Duty(8_000));
+            for (phase, sign) in signs.into_iter().enumerate() {
+                assert!((made_up[phase] - plain[phase] - sign * 0.01).abs() < 1e-6, "{back_emf} {phase}");
+            }
         }
-        assert_eq!(Modulation { dead_fraction: 0.01, ripple_fraction: 0.02 }.widths(Field::default()), [0.5; 3]);
+        assert_eq!(DEAD.widths(Field::default(), Duty::ZERO), [0.5; 3]);
     }
 }

@@ -1,21 +1,21 @@
 //! A stage of three half-bridges with a pulse-width input each.
 
 use super::{Drive, DriveError, Field, Modulation, part_of};
-use crate::device::{Duty, ElectricalAngle};
+use crate::device::Duty;
 use embedded_hal::digital::OutputPin;
 use embedded_hal::pwm::SetDutyCycle;
 
 /// Three half-bridges, each with a pulse width for its upper switch, behind a pin that enables them, high: DRV8313,
 /// L6234, and gate drivers of their kind.
 ///
-/// The stage applies the voltage of a [`super::VoltageFeed`] ([`super::VoltageFeed::three_phase`]) at the electrical
-/// angle of the last [`Drive::aim`].
+/// The stage applies the voltage of a [`super::VoltageFeed`] ([`super::VoltageFeed::three_phase`]) in the
+/// field of the last [`Drive::aim`].
 #[derive(Debug)]
 pub struct ThreePhase<A, B, C, E> {
     widths: (A, B, C),
     enable: E,
     modulation: Modulation,
-    aim: Option<ElectricalAngle>,
+    aim: Option<Field>,
     enabled: bool,
 }
 
@@ -46,14 +46,14 @@ type StageError = DriveError<(), ()>;
 impl<A: SetDutyCycle, B: SetDutyCycle, C: SetDutyCycle, E: OutputPin> Drive for ThreePhase<A, B, C, E> {
     type Error = StageError;
 
-    fn aim(&mut self, angle: ElectricalAngle) {
-        self.aim = Some(angle);
+    fn aim(&mut self, field: Field) {
+        self.aim = Some(field);
     }
 
-    /// A stage without a rotor angle takes no duty.
+    /// A stage without a field takes no duty.
     fn apply(&mut self, duty: Duty) -> Result<(), StageError> {
-        let Some(angle) = self.aim else { return Err(DriveError::Direction) };
-        let widths = self.modulation.widths(Field { angle, duty });
+        let Some(field) = self.aim else { return Err(DriveError::Direction) };
+        let widths = self.modulation.widths(field, duty);
         if !self.send(widths) {
             return Err(DriveError::PulseWidth(()));
         }

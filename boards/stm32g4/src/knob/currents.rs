@@ -2,6 +2,7 @@
 
 use embedded_hal::delay::DelayNs;
 use palpate_bench::PhaseCurrents;
+use palpate_bench::knob::CURRENTS;
 use palpate_stm32g4::Converters;
 use stm32g4xx_hal::adc::AdcClaim;
 use stm32g4xx_hal::adc::config::AdcConfig;
@@ -10,6 +11,9 @@ use stm32g4xx_hal::stm32::{ADC2, adc1};
 
 /// 12 bits of 3.3 V; 10 mΩ, and an amplifier of 50.
 const AMPS_PER_COUNT: f32 = 3.3 / 4_095.0 / (0.01 * 50.0);
+// Half of all counts, 3.3 A, is what they show at most: a short must be above the limit before.
+const _: () =
+    assert!(CURRENTS.max_a <= 0.85 * 3.3, "CURRENTS.max_a is beyond the shunts' range: lower CURRENT_AT_FULL");
 /// PA0 and PA4 (RM0440, "ADC1/2/3/4/5 connectivity").
 const CHANNELS: [u8; 2] = [1, 17];
 /// Counts without current: half of all, and a tenth more or less. The amplifiers' offsets have 0.2 %, their reference 1 %.

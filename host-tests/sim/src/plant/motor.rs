@@ -46,6 +46,13 @@ impl Motor {
         current.clamp(-self.current_limit, self.current_limit)
     }
 
+    /// The current it settles to at a joint rate, rad/s, A: on a bridge back-EMF takes its part.
+    pub fn settled(&self, duty: i16, rate: f64) -> f64 {
+        let Amplifier::Voltage(Winding { supply, resistance, .. }) = self.amplifier else { return self.aim(duty) };
+        let voltage = f64::from(duty) / 32_767.0 * supply - self.torque_per_ampere * rate;
+        (voltage / resistance).clamp(-self.current_limit, self.current_limit)
+    }
+
     /// The current after a step of `period` s from `before`, under a duty at a joint rate, rad/s. `left_over` is how
     /// much of the distance to its aim a current loop leaves after the step.
     fn next(&self, before: f64, duty: i16, rate: f64, period: f64, left_over: f64) -> f64 {

@@ -1,7 +1,10 @@
 //! Device files: what ships as a file is the preset, and what no device has is refused by its entry.
 
+use palpate::device::presets::{HAPKIT, HAPLY_2DIY_V3};
 use palpate_sim::devices::{DEVICES, Preset};
-use palpate_sim::devices::{HomingEntry, OwnDevice, source};
+use palpate_sim::devices::{HomingEntry, OwnDevice, named, rust_preset, source};
+use palpate_sim::plant::{Amplifier, Winding};
+use std::fs;
 
 /// The file of WoodenHaptics, as text.
 fn text() -> String {
@@ -91,6 +94,12 @@ fn a_bad_file_is_refused_by_its_entry() {
         ("friction = ", "friction = 12", "joint a: friction: 12"),
         ("max_stiffness = ", "max_stiffness = 1.0 # ", "limits.max_stiffness: must be at least 10 N/m"),
         ("max_force = 5.0", "max_force = 5000.0", "limits.max_force: 5000 is no"),
+        (
+            "max_probe_speed = 1.5",
+            "max_probe_speed = 1500.0",
+            "limits.max_probe_speed: must be positive and at most 10",
+        ),
+        ("max_rate = 15.0", "max_rate = 3000.0", "joint a: motor.max_rate: must be at most 500 rad/s"),
     ] {
         let spoilt = text().replacen(good, bad, 1);
         assert_ne!(spoilt, text(), "{good} is not in the file");
@@ -103,5 +112,57 @@ fn a_bad_file_is_refused_by_its_entry() {
         let spoilt = text().replacen("channel = 1", "channel = 0", 1).replacen("name = \"b\"", name, 1);
         let error = OwnDevice::parse(&spoilt, "my.toml").expect_err(name).to_string();
         assert!(error.contains(entry), "{error}");
+    }
+}
+
+#[test]
+fn a_bridge_that_no_device_has_is_refused_by_its_number() {
+    let with = |entries: &str| {
+        let bridge = format!("max_rate = 15.0\nbridge = {{ {entries}, back_emf_share = 0.8 }}");
+        OwnDevice::parse(&text().replacen("max_rate = 15.0", &bridge, 1), "my.toml").map_err(|error| error.to_string())
+    };
+    for (entries, says) in [
+        ("supply = 24000.0, resistance = 0.7", "supply = 24000 is no haptic device's: it is in V"),
+        ("supply = 0.024, resistance = 0.7", "supply = 0.024"),
+        ("supply = nan, resistance = 0.7", "supply = NaN"),
+        ("supply = 24.0, resistance = 7000.0", "resistance = 7000"),
+        (
+            "supply = 24.0, resistance = 0.7, inductance = 0.12",
+            "inductance over resistance is 171.429 ms, and must be 0 to 5",
+        ),
+        ("supply = 24.0, resistance = 0.7, inductance = -1e-4", "inductance"),
+        ("supply = 24.0, resistance = 0.7, inductance = nan", "inductance"),
+        ("supply = 24.0, resistance = 9.0", "its supply drives 2.67 A at most"),
+    ] {
+        let error = with(entries).expect_err(entries);
+        assert!(error.contains(&format!("my.toml: joint a: motor.bridge: {says}")), "{entries}: {error}");
+    }
+    for (entries, inductance) in [("", 1e-3), (", inductance = 1.2e-4", 1.2e-4), (", inductance = 0.0", 0.0)] {
+        let own = with(&format!("supply = 24.0, resistance = 0.7{entries}")).expect(entries);
+        let amplifiers = own.plant.joints.map(|joint| joint.amplifier);
+        let winding = Amplifier::Voltage(Winding { supply: 24.0, resistance: 0.7, inductance });
+        assert_eq!(amplifiers, [winding, Amplifier::Current, Amplifier::Current], "{entries}");
+    }
+}
+
+/// Constants of one and two joints, as `palpate device hapkit --out device.rs` writes them.
+mod hapkit {
+    include!("../../data/hapkit.device.rs");
+}
+mod haply {
+    include!("../../data/haply-2diy-v3.device.rs");
+}
+
+#[test]
+fn the_constants_of_one_and_two_joints_compile_and_are_the_presets() {
+    assert_eq!(format!("{:?}", hapkit::DEVICE), format!("{HAPKIT:?}"));
+    assert_eq!(format!("{:?}", haply::DEVICE), format!("{HAPLY_2DIY_V3:?}"));
+    for name in ["hapkit", "haply-2diy-v3"] {
+        let path = format!("{}/data/{name}.device.rs", env!("CARGO_MANIFEST_DIR"));
+        let written = rust_preset(named(name).expect("it ships"));
+        if std::env::var_os("PALPATE_WRITE").is_some() {
+            fs::write(&path, &written).expect("it is written");
+        }
+        assert_eq!(fs::read_to_string(&path).expect("a file"), written, "PALPATE_WRITE=1 writes it again");
     }
 }

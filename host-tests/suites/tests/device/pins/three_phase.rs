@@ -92,7 +92,8 @@ fn said(log: &Log) -> Vec<(char, u16)> {
 
 /// The widths of a field, in the order in which they are written.
 fn widths(angle: ElectricalAngle, duty: Duty) -> [(char, u16); 3] {
-    let [a, b, c] = MODULATION.widths(Field { angle, duty }).map(|width| (width * f32::from(MOST)).round() as u16);
+    let [a, b, c] =
+        MODULATION.widths(Field::at_rest(angle), duty).map(|width| (width * f32::from(MOST)).round() as u16);
     [('a', a), ('b', b), ('c', c)]
 }
 
@@ -102,18 +103,18 @@ const OFF: [(char, u16); 3] = [('a', 0), ('b', 0), ('c', 0)];
 #[test]
 fn a_stage_is_enabled_only_once_all_its_widths_are_there_and_disabled_before_they_go() {
     let (mut stage, log) = stage(' ', &[]);
-    stage.aim(ANGLE);
+    stage.aim(Field::at_rest(ANGLE));
     assert!(said(&log).is_empty(), "an aim drives nothing");
     stage.apply(Duty(12_000)).unwrap();
     assert_eq!(said(&log), [&widths(ANGLE, Duty(12_000))[..], &[('e', 1)]].concat());
     // It stays enabled, and the field turns on.
-    stage.aim(ElectricalAngle(20_000));
+    stage.aim(Field::at_rest(ElectricalAngle(20_000)));
     stage.apply(Duty(-32_767)).unwrap();
     assert_eq!(said(&log), widths(ElectricalAngle(20_000), Duty(-32_767)));
     stage.release().unwrap();
     assert_eq!(said(&log), [&[('e', 0)], &OFF[..]].concat());
     // Anew: an aim, widths, and only then the pin.
-    stage.aim(ANGLE);
+    stage.aim(Field::at_rest(ANGLE));
     stage.apply(Duty::ZERO).unwrap();
     assert_eq!(said(&log), [&widths(ANGLE, Duty::ZERO)[..], &[('e', 1)]].concat());
 }
@@ -123,7 +124,7 @@ fn without_an_aim_a_command_is_refused_and_nothing_is_written() {
     let (mut stage, log) = stage(' ', &[]);
     assert!(matches!(stage.apply(Duty::FULL), Err(DriveError::Direction)));
     assert!(said(&log).is_empty());
-    stage.aim(ANGLE);
+    stage.aim(Field::at_rest(ANGLE));
     stage.apply(Duty::FULL).unwrap();
     stage.release().unwrap();
     said(&log);
@@ -136,7 +137,7 @@ fn without_an_aim_a_command_is_refused_and_nothing_is_written() {
 fn a_stage_whose_width_fails_writes_the_others_and_is_not_enabled() {
     for bad in ['a', 'b', 'c'] {
         let (mut stage, log) = stage(bad, &[true]);
-        stage.aim(ANGLE);
+        stage.aim(Field::at_rest(ANGLE));
         assert!(matches!(stage.apply(Duty(12_000)), Err(DriveError::PulseWidth(()))), "{bad}");
         assert_eq!(said(&log), widths(ANGLE, Duty(12_000)), "{bad}");
         stage.apply(Duty(12_000)).unwrap();
@@ -147,7 +148,7 @@ fn a_stage_whose_width_fails_writes_the_others_and_is_not_enabled() {
 #[test]
 fn a_stage_whose_pin_fails_says_so_and_tries_again() {
     let (mut stage, log) = stage('e', &[true, false, true, false]);
-    stage.aim(ANGLE);
+    stage.aim(Field::at_rest(ANGLE));
     for is_enabled in [false, true] {
         assert_eq!(stage.apply(Duty(12_000)).is_ok(), is_enabled);
         assert_eq!(said(&log).last(), Some(&('e', 1)));
@@ -163,7 +164,7 @@ fn a_stage_whose_pin_fails_says_so_and_tries_again() {
 fn a_release_writes_every_width_and_the_pin_even_if_one_fails() {
     for bad in ['a', 'b', 'c'] {
         let (mut stage, log) = stage(bad, &[false, true]);
-        stage.aim(ANGLE);
+        stage.aim(Field::at_rest(ANGLE));
         stage.apply(Duty(12_000)).unwrap();
         said(&log);
         assert!(matches!(stage.release(), Err(DriveError::PulseWidth(()))), "{bad}");
