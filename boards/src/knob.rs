@@ -2,7 +2,7 @@
 //! change first.
 
 use crate::{ChopperSettings, CurrentLimits, JogSettings};
-use palpate::device::drive::{Feed, Field, Modulation, VoltageFeed};
+use palpate::device::drive::{Feed, Modulation, VoltageFeed};
 use palpate::device::presets::{GIMBAL_KNOB, GIMBAL_KNOB_PROTECTION};
 use palpate::device::{
     CoggingMap, Commutation, Device, Dial, Endurance, FieldSearch, Homing, Motor, Protection, Reference, SupplyRange,
@@ -17,13 +17,27 @@ pub type KnobServo = Servo<'static, Knob, Dial, 1, Guarded<1>>;
 /// Its state between two ticks.
 pub type KnobState = ServoState<1, KnobWitness, GuardState<1>>;
 
-/// Current at full duty, A: the limit of stage and motor.
+/// Current at full duty, A: the limit of stage and motor, in the scale that keeps the power: a phase's amplitude is
+/// this times √(2/3), 0.61 A here.
 const CURRENT_AT_FULL: f32 = 0.75;
 /// Continuous current of whichever phase has the most, A, and the time constant of its winding, s: both assumed.
 const CONTINUOUS_A: f32 = 0.4;
 const HEATING_S: f32 = 20.0;
-/// Supply, V; resistance of a phase, half of that between two wires, Ω; speed for each volt, rpm/V.
-const FEED: VoltageFeed = VoltageFeed::three_phase(12.0, 7.5, 80.0, CURRENT_AT_FULL);
+/// Supply, V.
+pub const SUPPLY_V: f32 = 12.0;
+/// Resistance of a phase, Ω: half of that between two wires.
+pub const PHASE_OHM: f32 = 7.5;
+/// KV: speed for each volt, rpm/V.
+pub const RPM_PER_V: f32 = 80.0;
+const _: () = {
+    assert!(SUPPLY_V > 0.0 && SUPPLY_V < f32::INFINITY, "SUPPLY_V must be positive, in volts");
+    assert!(PHASE_OHM > 0.0 && PHASE_OHM < f32::INFINITY, "PHASE_OHM must be positive, in ohms");
+    assert!(RPM_PER_V > 0.0 && RPM_PER_V < f32::INFINITY, "RPM_PER_V, the motor's KV, must be positive");
+    assert!(CURRENT_AT_FULL > 0.0 && CURRENT_AT_FULL < f32::INFINITY, "CURRENT_AT_FULL must be positive, in amperes");
+    assert!(CONTINUOUS_A > 0.0 && CONTINUOUS_A < f32::INFINITY, "CONTINUOUS_A must be positive, in amperes");
+    assert!(HEATING_S > 0.0 && HEATING_S < f32::INFINITY, "HEATING_S must be positive, in seconds");
+};
+const FEED: VoltageFeed = VoltageFeed::three_phase(SUPPLY_V, PHASE_OHM, RPM_PER_V, CURRENT_AT_FULL);
 /// The motor. Dial, sensor and limits are those of the preset.
 pub const MOTOR: Device<Dial, 1> = Device {
     motors: [Motor::current_driven(FEED.torque_constant_n_m_per_a, CURRENT_AT_FULL, 1.0)],
@@ -42,18 +56,24 @@ pub const SUPPLY: SupplyRange = SupplyRange { min_mv: 10_000, max_mv: 14_000 };
 pub const CHOPPER: ChopperSettings =
     ChopperSettings { on_v: 13.4, off_v: 13.0, resistance_ohm: 10.0, continuous_w: 5.0, energy_j: 20.0 };
 const _: () = {
+    assert!(
+        FEED.current_at_full_a * FEED.resistance_ohm <= FEED.full_v(),
+        "CURRENT_AT_FULL through PHASE_OHM needs more than SUPPLY_V over √2"
+    );
     let supply_mv = FEED.supply_v * 1e3;
     assert!(
         supply_mv >= SUPPLY.min_mv as f32 && supply_mv <= SUPPLY.max_mv as f32,
-        "the supply of FEED is outside of SUPPLY: adapt SUPPLY"
+        "SUPPLY_V is outside of SUPPLY: adapt SUPPLY"
     );
     assert!(
         FEED.supply_v < CHOPPER.off_v && CHOPPER.on_v * 1e3 < SUPPLY.max_mv as f32,
-        "CHOPPER must rest at the supply of FEED, and burn below the maximum of SUPPLY: adapt CHOPPER"
+        "CHOPPER must rest at SUPPLY_V, and burn below the maximum of SUPPLY: adapt CHOPPER"
     );
 };
-/// Twice the amplitude at full duty; a tenth of a volt over 7.5 Ω is noise of dead time.
-pub const CURRENTS: CurrentLimits = CurrentLimits { max_a: 1.2, open_a: 0.06 };
+/// `max_a`: twice a phase's amplitude at full duty. `open_a`: 4.5 times the current of a tenth of a volt that dead time
+/// leaves, over the phase resistance: a connected phase with a third of it, less that error, has more than the tenth that
+/// counts as none. Below half the amplitude of the alignment, 0.29 A.
+pub const CURRENTS: CurrentLimits = CurrentLimits { max_a: 1.6 * CURRENT_AT_FULL, open_a: 0.45 / PHASE_OHM };
 
 /// 4 kHz; stiffness and damping are the feels' own.
 pub const SETTINGS: Settings = Settings {
@@ -75,10 +95,37 @@ pub const fn device(cogging: Option<CoggingMap>) -> Device<Dial, 1> {
 pub const SEARCH: FieldSearch =
     FieldSearch { commutation: COMMUTATION, torque_n_m: 0.03, ramp_ticks: 800, turn_ticks: 2_000, turns: 1 };
 
+// Invalid numbers are compile errors of the host's programs too.
+const _: Homing<1> = homing(SEARCH);
+
+const _: () = {
+    // A phase's amplitude is √(2/3) of that scale's current.
+    let alignment_a = 0.816_496_6 * SEARCH.torque_n_m / FEED.torque_constant_n_m_per_a;
+    let full_a = 0.816_496_6 * CURRENT_AT_FULL;
+    let least_a = if alignment_a < full_a { alignment_a } else { full_a };
+    assert!(
+        2.0 * CURRENTS.open_a <= least_a,
+        "an open phase would not be detected: the current of SEARCH, or CURRENT_AT_FULL, is too low for PHASE_OHM"
+    );
+};
+
 /// How the rotor is led round while button and key are held, to record its cogging: 6 s for an electrical turn, with 40
-/// mN·m. Faster, its inertia would count as cogging. It snaps to the field at first, so it may be faster for a moment.
+/// mN·m or the motor's continuous torque, whichever is less. Faster, its inertia would count as cogging. It snaps to the
+/// field at first, so it may be faster for a moment.
 pub const JOG: JogSettings =
-    JogSettings { share: 0.42, rate: 20.0, travel: 9.0, patience: 0.1, turn_ticks: Some(24_000) };
+    JogSettings { share: LED_SHARE, rate: 20.0, travel: 9.0, patience: 0.1, turn_ticks: Some(24_000) };
+
+/// No heat is counted meanwhile: the limit is the motor's continuous torque. Rounded down to a hundredth.
+const LED_SHARE: f32 = {
+    let continuous = PROTECTION.motors[0].continuous * MOTOR.motors[0].torque_at_full_n_m;
+    let torque = if continuous * 0.975 < 0.0402 { continuous * 0.975 } else { 0.0402 };
+    let hundredths = (100.0 * torque / led_torque(1.0)) as u32;
+    assert!(
+        hundredths > 0,
+        "a hundredth of the full voltage gives more than 40 mN·m or CONTINUOUS_A: no share of it records the cogging"
+    );
+    if hundredths > 100 { 1.0 } else { hundredths as f32 / 100.0 }
+};
 
 /// The torque of a field that is led with this duty of voltage on a rotor a quarter turn behind it, N·m.
 pub const fn led_torque(share: f32) -> f32 {
@@ -87,7 +134,7 @@ pub const fn led_torque(share: f32) -> f32 {
         Feed::Current => 0.0,
     }
 }
-// No heat is counted meanwhile: the limit is the motor's continuous torque.
+// A share that is put in the place of that one by hand.
 const _: () = assert!(
     led_torque(JOG.share) <= PROTECTION.motors[0].continuous * MOTOR.motors[0].torque_at_full_n_m,
     "the field that records the cogging has more than the motor's continuous torque: lower JOG.share"
@@ -164,12 +211,11 @@ pub const TOLD_OF_SUPPLY: Protection<1> = Protection { supply: Some(SUPPLY), ..P
 #[inline]
 pub fn widths(servo: &KnobServo, state: &KnobState, modulation: &Modulation) -> Option<[f32; 3]> {
     let Output::Drive([duty]) = state.output() else { return None };
-    let [angle] = servo.fields(state)?;
-    Some(modulation.widths(Field { angle, duty }))
+    let [field] = servo.fields(state)?;
+    Some(modulation.widths(field, duty))
 }
 
-/// Of a SimpleFOCShield at 25 kHz and 12 V: half a microsecond of dead time, and a ripple as large as the current of
-/// 0.23 V.
+/// Of a SimpleFOCShield at 25 kHz: half a microsecond of dead time, and the ripple of 7.5 Ω and 2 mH (assumed).
 pub const MODULATION: Modulation = Modulation { dead_fraction: 0.0125, ripple_fraction: 0.019 };
 
 /// The widths in the place of a report's duties: −32,767 to 32,767 for none to all of a period, and −32,768 for a stage

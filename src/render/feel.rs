@@ -76,7 +76,7 @@ pub struct Notch {
 pub struct Feel {
     /// Detents that one turns through smoothly.
     pub detents: Option<Wave>,
-    /// Detents that snap, with hysteresis.
+    /// Detents that snap, with hysteresis: of [`Detents`]' units those of a dial, rad, N·m, N·m/rad and N·m·s/rad.
     pub clicks: Option<Detents>,
     /// Texture between detents.
     pub texture: Option<Wave>,
@@ -309,33 +309,53 @@ impl Feel {
         far
     }
 
-    /// Moves spring, end stops and the range of clicks by as little as leaves a dial at this angle where it is. `angle`
-    /// is by the feel as it is, `now` by the feel as it shall be: whole turns apart.
-    pub(crate) fn settle(&mut self, angle: f32, now: f32) {
+    /// Moves spring, end stops and the range of clicks by as little as leaves a dial at this angle where it is, and the
+    /// notch to its turn.
+    pub(crate) fn settle(&mut self, angle: f32) {
         if let Some(spring) = &mut self.spring {
-            spring.rest_rad = now;
+            spring.rest_rad = angle;
         }
         if let Some(ends) = &mut self.ends {
             let [least, most] = ends.between_rad;
             let width = most - least;
             let below = saturate(angle - least, 0.0, width);
             // A width that is lost in the rounding of its place is none: the dial rests between equal stops.
-            ends.between_rad = [now - below, now + (width - below)];
+            ends.between_rad = [angle - below, angle + (width - below)];
         }
         if let Some(clicks) = &mut self.clicks {
-            let number = |angle: f32| {
-                let pitches = angle / clicks.pitch;
-                // The cast saturates.
-                (pitches + if pitches < 0.0 { -0.5 } else { 0.5 }) as i32
-            };
+            let number = nearest(angle / clicks.pitch);
             let count = clicks.last.saturating_sub(clicks.first);
-            let below = number(angle).saturating_sub(clicks.first).min(count).max(0);
-            clicks.first = number(now).saturating_sub(below);
+            let below = number.saturating_sub(clicks.first).min(count).max(0);
+            clicks.first = number.saturating_sub(below);
             clicks.last = clicks.first.saturating_add(count);
         }
         if let Some(notch) = &mut self.notch {
-            notch.at_rad = now + (notch.at_rad - angle);
+            notch.at_rad = wound(nearest((angle - notch.at_rad) / TAU), notch.at_rad);
         }
+    }
+
+    /// The same feel by an angle without these turns.
+    pub(crate) fn unwind(&mut self, turns: i32) {
+        let by = |angle: f32| wound(turns.wrapping_neg(), angle);
+        if let Some(spring) = &mut self.spring {
+            spring.rest_rad = by(spring.rest_rad);
+        }
+        if let Some(ends) = &mut self.ends {
+            ends.between_rad = ends.between_rad.map(by);
+        }
+        if let Some(clicks) = &mut self.clicks {
+            let pitches = nearest(turns as f32 * TAU / clicks.pitch);
+            clicks.first = clicks.first.saturating_sub(pitches);
+            clicks.last = clicks.last.saturating_sub(pitches);
+        }
+        if let Some(notch) = &mut self.notch {
+            notch.at_rad = by(notch.at_rad);
+        }
+    }
+
+    /// Whether it has no part at a place: the same in every turn.
+    pub(crate) const fn is_endless(&self) -> bool {
+        self.spring.is_none() && self.ends.is_none() && self.clicks.is_none() && self.notch.is_none()
     }
 
     /// The number of the detent, smooth or clicking, that is nearest to this angle.
@@ -345,8 +365,7 @@ impl Feel {
             (None, Some(wave)) => (wave.pitch_rad, wave.centre_rad),
             (None, None) => return 0,
         };
-        let pitches = (angle - centre) / pitch;
-        let nearest = (pitches + if pitches < 0.0 { -0.5 } else { 0.5 }) as i32;
+        let nearest = nearest((angle - centre) / pitch);
         self.clicks.map_or(nearest, |clicks| nearest.max(clicks.first).min(clicks.last))
     }
 
@@ -527,7 +546,7 @@ impl Feel {
     }
 
     /// The same after whole turns of the dial, which are no part of the angle: waves stay as precise as in the first
-    /// turn. `whole` is the angle with the turns that spring, end stops, clicks and notch count.
+    /// turn. `whole` is the angle with these turns.
     #[inline]
     pub(crate) fn torque_after(&self, turns: i32, whole: f32, click: &mut i32, angle: f32, rate: f32) -> f32 {
         let mut torque = -self.damping_n_m_s_per_rad * rate;
@@ -558,6 +577,12 @@ impl Feel {
         }
         torque
     }
+}
+
+/// The nearest whole number. The cast saturates.
+#[inline]
+pub(crate) fn nearest(number: f32) -> i32 {
+    (number + if number < 0.0 { -0.5 } else { 0.5 }) as i32
 }
 
 /// The whole angle, radians: for springs and stops, whose torque has a limit far from them.

@@ -6,21 +6,21 @@
 #[cfg_attr(feature = "wire", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Detents {
-    /// Distance of one detent from the next.
+    /// From one detent to the next, m; rad on a dial.
     pub pitch: f32,
-    /// Force per distance from the detent.
+    /// Force per distance from the detent, N/m; N·m/rad on a dial.
     pub stiffness: f32,
-    /// Force per speed.
+    /// Force per speed, N·s/m; N·m·s/rad on a dial.
     pub damping: f32,
     /// How far out of a detent the next one takes over, in pitches: ½, or more for a click that stays put (hysteresis).
     pub snap: f32,
-    /// The first detent.
+    /// Number of the first detent; detent 0 is at position 0.
     pub first: i32,
-    /// The last detent.
+    /// Number of the last detent.
     pub last: i32,
-    /// Force per distance beyond the first and the last.
+    /// Force per distance beyond the first and the last, N/m; N·m/rad on a dial.
     pub wall_stiffness: f32,
-    /// Maximum force, N.
+    /// Maximum force, N; maximum torque, N·m, on a dial.
     pub max_force: f32,
 }
 
@@ -64,8 +64,9 @@ impl Detents {
         if self.first > self.last { Err(DetentsError::Order) } else { Ok(self) }
     }
 
-    /// The force at a position and velocity, and the detent it is in (`detent` is the last one). Not more than
-    /// `max_force` either way; 0 where an input is not finite.
+    /// The force, N, at a position, m, and velocity, m/s; on a dial the torque, N·m, at an angle, rad, and rate, rad/s.
+    /// Writes the detent it is in (`detent` is the last one). Not more than `max_force` either way; 0 where an input is
+    /// not finite.
     #[inline]
     pub fn force(&self, detent: &mut i32, position: f32, velocity: f32) -> f32 {
         let distance = |detent: i32| position - detent as f32 * self.pitch;

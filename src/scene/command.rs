@@ -239,16 +239,29 @@ impl SceneError {
 impl BodyPose {
     /// The placement, at rest; `None` where the quaternion is not of length 1, within a thousandth.
     pub fn placement(&self) -> Option<Placement> {
-        let [x, y, z, w] = self.orientation;
-        let squared = x * x + y * y + z * z + w * w;
-        // A NaN fails too.
-        if !squared.is_finite() || (squared - 1.0).abs() > 2e-3 {
+        let squared = self.norm_squared();
+        if !is_near_one(squared) {
             return None;
         }
         let scale = inverse_sqrt(squared);
         let axes = axes(&self.orientation.map(|number| number * scale));
         Some(Placement { axes, origin: Vec3::from_array(self.position), ..Placement::IDENTITY })
     }
+
+    /// Whether it has a placement, and a position of finite numbers.
+    pub(crate) fn is_sound(&self) -> bool {
+        is_near_one(self.norm_squared()) && self.position.iter().all(|coordinate| coordinate.is_finite())
+    }
+
+    fn norm_squared(&self) -> f32 {
+        let [x, y, z, w] = self.orientation;
+        x * x + y * y + z * z + w * w
+    }
+}
+
+/// Whether the square of a quaternion's length is 1, within a thousandth of the length; a NaN is not.
+fn is_near_one(squared: f32) -> bool {
+    (squared - 1.0).abs() <= 2e-3
 }
 
 /// A surface that takes commands of a host.
@@ -262,9 +275,9 @@ pub trait Commanded: Surface {
         Err(SceneError::NotOffered)
     }
 
-    /// The dial as it is, of a knob.
-    fn dial(&self, witness: &Self::Witness, probe: Vec3, phase: Phase) -> Option<DialState> {
-        let _ = (witness, probe, phase);
+    /// The dial as it is, of a knob whose joint is at an angle, radians.
+    fn dial(&self, witness: &Self::Witness, joint_rad: f32, phase: Phase) -> Option<DialState> {
+        let _ = (witness, joint_rad, phase);
         None
     }
 
@@ -326,8 +339,8 @@ impl Commanded for Knob {
         }
     }
 
-    fn dial(&self, witness: &KnobWitness, probe: Vec3, phase: Phase) -> Option<DialState> {
-        Some(Self::dial(self, witness, probe, phase))
+    fn dial(&self, witness: &KnobWitness, joint_rad: f32, phase: Phase) -> Option<DialState> {
+        Some(Self::dial(self, witness, joint_rad, phase))
     }
 
     fn feel(&self, witness: &KnobWitness) -> Option<Feel> {
@@ -363,7 +376,7 @@ impl<S: Commanded, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>>
 
     /// The dial as it is, of a knob. A fault ends its torque; the angle goes on.
     pub fn dial(&self, state: &ServoState<JOINTS, S::Witness, G::State>) -> Option<DialState> {
-        self.surface().dial(state.witness(), state.probe(), state.phase())
+        self.surface().dial(state.witness(), *state.angles().first()?, state.phase())
     }
 
     /// The feel that a host has set, of a knob.

@@ -1,14 +1,14 @@
 //! A dial as a surface of the loop: a table of feels and one that a host sets, one of them active at a time.
 
 use super::fault::Phase;
+use super::knob_error::{DAMPING_PER_STIFFNESS_S, KnobError, MAX_RETURN_RAD, Sentence};
 use super::surface::{BakedTables, Surface, Touched, Tracked, witness_words};
 use crate::device::{Device, Dial, MARGIN_RIM};
 use crate::math::{Vec3, saturate};
 use crate::patch::{SecondDerivatives, SurfacePoint};
-use crate::render::{Feel, FeelError, FeelPart, wound};
+use crate::render::{Feel, FeelPart, nearest, wound};
 use crate::track::{BoundaryMode, Contact, Controller, Probe, Witness};
 use core::f32::consts::TAU;
-use core::fmt;
 
 /// The feel of a dial: a table of feels in flash, switched while it runs ([`super::Event::Chosen`]).
 ///
@@ -18,9 +18,9 @@ use core::fmt;
 /// A switch never gives a step: the difference between the old feel's torque and the new one's decays at a constant
 /// rate, N·m/s. The entry after the table's last is a feel that a host sets part by part ([`Self::set`]).
 ///
-/// Where force starts, and where a feel is chosen, whole turns are taken out of the dial's angle: no spring or end stop
-/// turns it back further than half a turn beyond its own place. The host's feel rests where the dial is then
-/// ([`Self::set`]).
+/// All parts count one angle, which [`Self::dial`] reports. Where force starts or a feel is chosen, a feel of the table
+/// moves to the dial by whole turns if that brings it nearer: no spring or end stop turns the dial back further than half
+/// a turn beyond its own place. The host's feel rests where the dial is then ([`Self::set`]).
 ///
 /// ```
 /// use palpate::device::{Dial, presets::GIMBAL_KNOB};
@@ -55,133 +55,9 @@ pub struct Knob {
     reversed: bool,
 }
 
-/// Which number of a knob is refused. In a `static` it is a compile error.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "wire", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[non_exhaustive]
-pub enum KnobError {
-    /// The table is empty, or has more than 255 entries.
-    Feels,
-    /// A feel makes no sense by itself.
-    Feel(FeelError),
-    /// The parts of a feel are together stiffer than the device's limit.
-    Stiffness {
-        /// The sum of the parts.
-        asked_n_m_per_rad: f32,
-        /// Of the device.
-        limit_n_m_per_rad: f32,
-    },
-    /// They damp more than the device's limit.
-    Damping {
-        /// The sum of the parts.
-        asked_n_m_s_per_rad: f32,
-        /// Of the device.
-        limit_n_m_s_per_rad: f32,
-    },
-    /// They have more torque than the motor.
-    Torque {
-        /// The sum of the parts.
-        asked_n_m: f32,
-        /// Of the motor.
-        limit_n_m: f32,
-    },
-    /// The release rate is not positive and finite.
-    LetGo,
-    /// A part of the host's would take the dial further than [`MAX_RETURN_RAD`].
-    Far {
-        /// How far.
-        asked_rad: f32,
-    },
-    /// A stored feel is restored before the first tick only.
-    Late,
-    /// A feel is chosen that does not exist.
-    Missing {
-        /// Its index.
-        asked: u8,
-        /// The last index that exists.
-        last: u8,
-    },
-    /// The parts are too stiff for their damping ([`DAMPING_PER_STIFFNESS_S`]): a dial that is let go of would ring, driven
-    /// by the motor.
-    Undamped {
-        /// Damping everywhere that they have.
-        asked_n_m_s_per_rad: f32,
-        /// That they need.
-        needed_n_m_s_per_rad: f32,
-    },
-    /// The device's minimum margin is above 0.8 of the dial's radius, which is its margin everywhere: it would never have
-    /// its whole force.
-    Margin,
-}
-
-/// The damping that a feel needs for each N·m/rad of its stiffness, N·m·s/rad: how late a gimbal motor's torque comes at
-/// 4 kHz, by sensor, winding, computation and hold, and a fifth more. So damped, the simulated dial, of 1 mN·m of friction,
-/// rests even where the motor's limit cuts the damping off. A lower servo rate needs more.
-pub const DAMPING_PER_STIFFNESS_S: f32 = 7e-4;
-
-/// How far a part of a feel that a host sets may take the dial, radians: an eighth of a turn.
-pub const MAX_RETURN_RAD: f32 = TAU / 8.0;
-
-impl KnobError {
-    /// The refusal without its numbers, for a panic at compile time.
-    pub const fn message(self) -> &'static str {
-        match self {
-            Self::Feels => "a knob has 1 to 255 feels",
-            Self::Feel(error) => error.message(),
-            Self::Stiffness { .. } => "a feel is stiffer than the device's maximum stiffness times its radius squared",
-            Self::Damping { .. } => "a feel damps more than the device's maximum damping times its radius squared",
-            Self::Torque { .. } => "a feel requests more torque than the device's maximum force times its radius",
-            Self::LetGo => "the torque released per second must be positive and finite",
-            Self::Far { .. } => "a part would turn the dial by more than an eighth of a turn",
-            Self::Late => "a stored feel is restored before the first tick only",
-            Self::Missing { .. } => "there is no such feel",
-            Self::Margin => "the device's minimum margin must be at most 0.8 of the dial's radius",
-            Self::Undamped { .. } => "a feel is too stiff for its damping: a dial that is let go of would ring",
-        }
-    }
-}
-
-impl fmt::Display for KnobError {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut beyond = |does: &str, [asked, limit]: [f32; 2], unit: &str| {
-            let [asked, limit] = [1e3 * asked, 1e3 * limit];
-            write!(
-                formatter,
-                "with it the feel {does} {asked:.2} {unit}, and the motor's limit is {limit:.2} {unit}: "
-            )?;
-            formatter.write_str("weaken it or another part, or take one away")
-        };
-        match *self {
-            Self::Stiffness { asked_n_m_per_rad: asked, limit_n_m_per_rad: limit } => {
-                beyond("is as stiff as", [asked, limit], "mN·m/rad")
-            }
-            Self::Damping { asked_n_m_s_per_rad: asked, limit_n_m_s_per_rad: limit } => {
-                beyond("damps by", [asked, limit], "mN·m·s/rad")?;
-                formatter.write_str("; friction damps by its torque over its rate")
-            }
-            Self::Torque { asked_n_m: asked, limit_n_m: limit } => beyond("has up to", [asked, limit], "mN·m"),
-            Self::Far { asked_rad: asked } => write!(
-                formatter,
-                "it would turn the dial by {asked:.2} rad ({:.0}°), and the limit is an eighth of a turn, \
-                 {MAX_RETURN_RAD:.2} rad: turn the dial there first, or give a nearer position",
-                asked.to_degrees()
-            ),
-            Self::Undamped { asked_n_m_s_per_rad: asked, needed_n_m_s_per_rad: needed } => write!(
-                formatter,
-                "with it a dial that is let go of would ring: the feel is damped by {:.2} mN·m·s/rad and stiff enough to \
-                 need {:.2}; raise the damping first, or weaken a part",
-                1e3 * asked,
-                // Rounded up: as much is enough. The cast saturates.
-                ((1e5 * needed + 0.9999) as u32) as f32 / 100.0
-            ),
-            Self::Missing { asked, last } => write!(formatter, "there is no feel {asked}: choose 0 to {last}"),
-            _ => formatter.write_str(self.message()),
-        }
-    }
-}
-
-impl core::error::Error for KnobError {}
+/// The turns that an angle counts at most where no place of a table's feel is bound to them: its rounding, 1e-4 rad, is
+/// below a count of 14 bits.
+const MAX_TURNS: u32 = 256;
 
 /// The state of a knob between two ticks.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -193,13 +69,15 @@ pub struct KnobWitness {
     switched: bool,
     /// The detent that was clicked into last.
     click: i32,
-    /// Whole turns of the dial that are no part of its angle.
+    /// Whole turns of the dial that are no part of the probe's place.
     turns: i32,
-    /// Those of them that spring, end stops, clicks and notch do not count.
+    /// The turn from which the active feel counts its angle.
     base: i32,
-    /// The angle that they count, radians; not known before the first tick.
+    /// The same of the host's feel.
+    own_base: i32,
+    /// The angle that the active feel counts, radians; not known before the first tick.
     whole: Option<f32>,
-    /// Whether force starts with the next tick, or a feel was chosen: whole turns are taken out.
+    /// Whether force starts with the next tick, or a feel was chosen: feel and dial are brought together.
     rebased: bool,
     /// Whether force starts with the next tick.
     starts: bool,
@@ -226,15 +104,36 @@ impl KnobWitness {
         self.torque
     }
 
-    /// The dial's angle, radians, by what spring and end stops count: whole turns are taken out where force starts and
-    /// where a feel is chosen. `None` before the first tick.
+    /// The dial's angle by which the active feel's parts are placed, radians ([`DialState::angle_rad`]). `None` before the
+    /// first tick.
     pub const fn angle(&self) -> Option<f32> {
         self.whole
+    }
+
+    /// The turn from which this angle is counted ([`DialState::turns`]).
+    pub const fn base(&self) -> i32 {
+        self.base
     }
 
     /// The feel that a host has set.
     pub const fn own(&self) -> Option<&Feel> {
         self.own.as_ref()
+    }
+
+    /// Counts the angle from another turn.
+    fn count_from(&mut self, base: i32) {
+        let turns = self.base.wrapping_sub(base);
+        (self.base, self.whole) = (base, self.whole.map(|whole| wound(turns, whole)));
+    }
+
+    /// The turn from which the angle is counted, and the angle, where the joint is at one: at first within half a turn.
+    #[inline]
+    fn place(&self, angle: f32) -> (i32, f32) {
+        let base = match self.whole {
+            Some(_) => self.base,
+            None => self.turns.wrapping_add(nearest(angle / TAU)),
+        };
+        (base, wound(self.turns.wrapping_sub(base), angle))
     }
 }
 
@@ -245,15 +144,27 @@ impl Knob {
     /// # Errors
     /// The first number that is refused.
     pub const fn try_new(device: &Device<Dial, 1>, feels: &'static [Feel], let_go: f32) -> Result<Self, KnobError> {
+        match Self::checked(device, feels, let_go) {
+            Ok(knob) => Ok(knob),
+            Err((error, _)) => Err(error),
+        }
+    }
+
+    /// [`Self::try_new`]; a refusal of a feel has its index.
+    const fn checked(
+        device: &Device<Dial, 1>,
+        feels: &'static [Feel],
+        let_go: f32,
+    ) -> Result<Self, (KnobError, Option<usize>)> {
         let radius = device.kinematics.radius_m;
         let (limit, full) = (device.max_force_n * radius, device.motors[0].torque_at_full_n_m.abs());
         let most = if limit < full { limit } else { full };
         if feels.is_empty() || feels.len() > 255 {
-            return Err(KnobError::Feels);
+            return Err((KnobError::Feels, None));
         }
         let is_whole = device.min_margin_m_per_rad * (1.0 + MARGIN_RIM) <= radius * (1.0 + 4.0 * f32::EPSILON);
         if !is_whole {
-            return Err(KnobError::Margin);
+            return Err((KnobError::Margin, None));
         }
         let knob = Self {
             feels,
@@ -267,11 +178,11 @@ impl Knob {
         let mut index = 0;
         while index < feels.len() {
             if let Err(error) = knob.bears(&feels[index]) {
-                return Err(error);
+                return Err((error, Some(index)));
             }
             index += 1;
         }
-        if let_go > 0.0 && let_go < f32::INFINITY { Ok(knob) } else { Err(KnobError::LetGo) }
+        if let_go > 0.0 && let_go < f32::INFINITY { Ok(knob) } else { Err((KnobError::LetGo, None)) }
     }
 
     /// Whether the device bears a feel.
@@ -309,11 +220,12 @@ impl Knob {
     /// [`Self::try_new`] for a `static`: invalid numbers are compile errors.
     ///
     /// # Panics
-    /// At compile time, naming the number.
+    /// At compile time, naming the feel by its index, and the numbers.
     pub const fn new(device: &Device<Dial, 1>, feels: &'static [Feel], let_go: f32) -> Self {
-        match Self::try_new(device, feels, let_go) {
+        match Self::checked(device, feels, let_go) {
             Ok(knob) => knob,
-            Err(error) => panic!("{}", error.message()),
+            Err((error, Some(index))) => panic!("{}", Sentence::of(error, index).as_str()),
+            Err((error, None)) => panic!("{}", error.message()),
         }
     }
 
@@ -326,7 +238,8 @@ impl Knob {
     /// part changes a copy of the feel that was active. The old torque is let go of as after a switch.
     ///
     /// Where force starts the host's spring, end stops and range of clicks are moved by as little as leaves the dial
-    /// where it is. While the dial's place is known they are taken within [`MAX_RETURN_RAD`] of it only.
+    /// where it is, and the notch to its turn. While the dial's place is known they are taken within [`MAX_RETURN_RAD`]
+    /// of it only.
     ///
     /// # Errors
     /// The number that is refused.
@@ -345,7 +258,8 @@ impl Knob {
         if part.clicks.is_some() {
             state.click = feel.detent(state.whole.unwrap_or(0.0));
         }
-        (state.own, state.feel, state.switched) = (Some(feel), self.feels.len() as u8, true);
+        (state.own, state.own_base) = (Some(feel), state.base);
+        (state.feel, state.switched) = (self.feels.len() as u8, true);
         Ok(())
     }
 
@@ -367,54 +281,79 @@ impl Knob {
         self.feels.get(usize::from(state.feel)).copied().or(state.own).unwrap_or(Feel::FREE)
     }
 
-    /// Takes whole turns out of the angle; the host's feel then rests where the dial is.
+    fn is_own(&self, state: &KnobWitness) -> bool {
+        usize::from(state.feel) == self.feels.len()
+    }
+
+    /// Brings a feel of the table to the dial by whole turns, if that is nearer; the host's then rests where it is.
     #[cold]
-    fn rebase(&self, state: &mut KnobWitness, angle: f32) {
-        let before = wound(state.turns.wrapping_sub(state.base), angle);
-        let turns = angle / TAU;
-        // The cast saturates; the angle is within a few turns.
-        let whole = (turns + if turns < 0.0 { -0.5 } else { 0.5 }) as i32;
-        state.base = state.turns.wrapping_add(whole);
-        if usize::from(state.feel) == self.feels.len()
-            && let Some(own) = &mut state.own
-        {
-            own.settle(before, wound(state.turns.wrapping_sub(state.base), angle));
+    fn rebase(&self, state: &mut KnobWitness) {
+        let whole = state.whole.unwrap_or(0.0);
+        if let Some(feel) = self.feels.get(usize::from(state.feel)) {
+            let turns = nearest(whole / TAU);
+            let places = Feel { notch: None, ..*feel };
+            let [stays, moves] = [whole, wound(turns.wrapping_neg(), whole)].map(|angle| places.pull(angle));
+            // A notch is in each turn of the dial.
+            if moves < stays || feel.notch.is_some() && moves <= stays {
+                state.count_from(state.base.wrapping_add(turns));
+            }
+        } else if let Some(own) = &mut state.own {
+            own.settle(whole);
         }
-        state.click = self.active(state).detent(wound(state.turns.wrapping_sub(state.base), angle));
+        state.click = self.active(state).detent(state.whole.unwrap_or(0.0));
         // It is not felt before force fades in.
         if state.starts {
             (state.left_over, state.switched) = (0.0, false);
         }
         (state.rebased, state.starts) = (false, false);
     }
+
+    /// Keeps the angle precise: takes whole turns out of it and of the host's feel, without a step of the torque.
+    #[cold]
+    fn unwind(&self, state: &mut KnobWitness) {
+        let turns = state.turns.wrapping_sub(state.base);
+        let is_own = self.is_own(state);
+        if state.whole.is_none() || turns.unsigned_abs() <= MAX_TURNS || !(is_own || self.active(state).is_endless()) {
+            return;
+        }
+        state.count_from(state.turns);
+        if is_own && let Some(own) = &mut state.own {
+            own.unwind(turns);
+            state.own_base = state.base;
+        }
+        (state.click, state.switched) = (self.active(state).detent(state.whole.unwrap_or(0.0)), true);
+    }
 }
 
 /// The dial as a host sees it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DialState {
-    /// Whole turns beside the angle.
+    /// Whole turns that the angle does not count: those by which a feel of the table moved to the dial, those before the
+    /// first tick, and those that were taken out beyond 256. Both together never jump.
     pub turns: i32,
-    /// Radians.
+    /// The angle by which the active feel's parts are placed, and those that a host sets, radians.
     pub angle_rad: f32,
     /// The torque of the feel, N·m, before soft start and limits; 0 unless the loop is [`Phase::Running`].
     pub torque_n_m: f32,
     /// Which feel is active.
     pub feel: u8,
-    /// The number of the nearest detent or click, by the angle of springs and stops ([`KnobWitness::angle`]).
+    /// The number of the detent or click that is nearest to the angle.
     pub detent: i32,
     /// Whether the dial is beyond an end stop: −1 below, 1 above, 0 between them.
     pub end: i8,
 }
 
 impl Knob {
-    /// The dial as it is, for a host: without force there is no torque, and the angle goes on with the probe.
-    pub fn dial(&self, state: &KnobWitness, probe: Vec3, phase: Phase) -> DialState {
-        let (feel, angle) = (self.active(state), probe.x / self.radius);
-        let whole = state.whole.map_or(0.0, |_| wound(state.turns.wrapping_sub(state.base), angle));
+    /// The dial as it is, for a host, where its joint is at an angle, radians: without force there is no torque, and the
+    /// angle goes on, before the rotor is aligned too.
+    pub fn dial(&self, state: &KnobWitness, joint_rad: f32, phase: Phase) -> DialState {
+        let feel = self.active(state);
+        let (turns, placed) = state.place(joint_rad);
+        let whole = state.whole.unwrap_or(placed);
         let beyond = |[least, most]: [f32; 2]| i8::from(whole > most) - i8::from(whole < least);
         DialState {
-            turns: state.turns,
-            angle_rad: angle,
+            turns,
+            angle_rad: whole,
             torque_n_m: if matches!(phase, Phase::Running) { state.torque } else { 0.0 },
             feel: state.feel,
             detent: feel.detent(whole),
@@ -442,6 +381,7 @@ impl Surface for Knob {
             click: 0,
             turns: 0,
             base: 0,
+            own_base: 0,
             whole: None,
             rebased: false,
             starts: false,
@@ -457,13 +397,13 @@ impl Surface for Knob {
     fn follow(&self, _: &Controller, state: &mut KnobWitness, probe: Probe, period: f32) -> Touched {
         let inverse = 1.0 / self.radius;
         let (angle, rate) = (probe.position.x * inverse, probe.velocity.x * inverse);
+        self.stopped(state, probe.position);
         if state.rebased {
-            self.rebase(state, angle);
+            self.rebase(state);
         }
-        let whole = wound(state.turns.wrapping_sub(state.base), angle);
-        state.whole = Some(whole);
+        let (turns, whole) = (state.turns.wrapping_sub(state.base), state.whole.unwrap_or(0.0));
         if let Some(feel) = self.feels.get(usize::from(state.feel)).or(state.own.as_ref()) {
-            let wanted = feel.torque_after(state.turns, whole, &mut state.click, angle, rate);
+            let wanted = feel.torque_after(turns, whole, &mut state.click, angle, rate);
             // No feel that passes its check gives another; a torque that is no number must not become the maximum.
             let wanted = if wanted.is_finite() { saturate(wanted, -self.most, self.most) } else { 0.0 };
             if state.switched {
@@ -492,6 +432,10 @@ impl Surface for Knob {
         let is_own = usize::from(index) == self.feels.len() && state.own.is_some();
         if (usize::from(index) < self.feels.len() || is_own) && index != state.feel {
             (state.feel, state.switched, state.rebased) = (index, true, true);
+            if is_own {
+                state.count_from(state.own_base);
+            }
+            self.unwind(state);
         }
     }
 
@@ -503,6 +447,16 @@ impl Surface for Knob {
     fn turn(&self, state: &mut KnobWitness, turns: i32) {
         // The encoder may count the other way.
         state.turns = if self.reversed { turns.wrapping_neg() } else { turns };
+        self.unwind(state);
+    }
+
+    #[inline]
+    fn stopped(&self, state: &mut KnobWitness, probe: Vec3) {
+        let (base, whole) = state.place(probe.x / self.radius);
+        if state.whole.is_none() {
+            (state.base, state.own_base) = (base, base);
+        }
+        state.whole = Some(whole);
     }
 }
 
@@ -539,6 +493,7 @@ impl Tracked for KnobWitness {
         take(self.click as u32);
         take(self.turns as u32);
         take(self.base as u32);
+        take(self.own_base as u32);
         take(self.whole.unwrap_or(0.0).to_bits());
         if let Some(own) = &self.own {
             own.for_each_word(&mut take);
@@ -553,7 +508,7 @@ impl Tracked for KnobWitness {
 mod tests {
     use super::*;
     use crate::device::presets::GIMBAL_KNOB;
-    use crate::render::{Detents, Ends, Notch, Spring, Wave};
+    use crate::render::{Detents, Ends, FeelError, Notch, Spring, Wave};
 
     static FEELS: [Feel; 4] = [
         Feel::FREE,

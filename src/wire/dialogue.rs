@@ -70,9 +70,9 @@ pub const DIALS_HZ: u32 = 100;
 pub struct Dial {
     /// The tick.
     pub tick: u32,
-    /// Whole turns beside the angle.
+    /// Whole turns that the angle does not count.
     pub turns: i32,
-    /// Radians.
+    /// By which the active feel's parts, and those that a host sets, are placed, radians.
     pub angle: f32,
     /// rad/s.
     pub rate: f32,

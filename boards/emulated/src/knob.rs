@@ -6,10 +6,10 @@ mod cogging {
 }
 
 use palpate::commission::Wiring;
+use palpate::device::Duty;
 use palpate::device::drive::Field;
 use palpate::device::sensor::Frozen;
 use palpate::device::{Counts, Device, Dial};
-use palpate::device::{Duty, ElectricalAngle};
 use palpate::render::Feel;
 use palpate::servo::{Deadline, Event, Guarded, Input, Knob};
 use palpate::wire::Sensors;
@@ -127,7 +127,7 @@ impl Felt<1> for This {
 pub struct KnobPins<L> {
     pins: Pins<L>,
     frozen: Frozen,
-    field: ElectricalAngle,
+    field: Field,
 }
 
 impl<L: Link> KnobPins<L> {
@@ -135,7 +135,7 @@ impl<L: Link> KnobPins<L> {
     pub fn new(board: &Board, link: L) -> Self {
         let mut pins = Pins::new(board, link);
         pins.duties = duties(None);
-        Self { pins, frozen: Frozen::AS5047P, field: ElectricalAngle::default() }
+        Self { pins, frozen: Frozen::AS5047P, field: Field::default() }
     }
 
     /// Tells the host the widths of the motor's phases from this tick on.
@@ -145,12 +145,12 @@ impl<L: Link> KnobPins<L> {
 }
 
 impl<L: Link> BenchBoard<1> for KnobPins<L> {
-    fn aim(&mut self, [angle]: [ElectricalAngle; 1]) {
-        self.field = angle;
+    fn aim(&mut self, [field]: [Field; 1]) {
+        self.field = field;
     }
 
     fn drive(&mut self, [duty]: [Duty; 1]) -> Result<(), NotObeyed> {
-        self.pins.duties = duties(Some(MODULATION.widths(Field { angle: self.field, duty })));
+        self.pins.duties = duties(Some(MODULATION.widths(self.field, duty)));
         Ok(())
     }
 }

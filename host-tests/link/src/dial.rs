@@ -2,10 +2,34 @@
 
 use crate::stopping::CONFIRMED;
 use crate::{Device, Error, Line, SILENCE, TRIES};
-use palpate::render::FeelPart;
+use palpate::render::{Detents, Ends, FeelPart};
 use palpate::scene::Command;
+use palpate::servo::DAMPING_PER_STIFFNESS_S;
 use palpate::wire::{Dial, HostMessage, hold};
 use std::time::Duration;
+
+/// Detents of a dial that snap: a pitch apart, rad, numbered from the first to the last. Each pulls back with up to the
+/// torque, N·m, which it has where the next one takes over, `snap` pitches off; the springs beyond the outer ones are
+/// four times as stiff. Without a damping, N·m·s/rad, as much as the device asks for.
+pub fn clicks(
+    pitch_rad: f32,
+    torque_n_m: f32,
+    [first, last]: [i32; 2],
+    snap: f32,
+    damping_n_m_s_per_rad: Option<f32>,
+) -> Detents {
+    let stiffness = torque_n_m / (snap * pitch_rad);
+    let wall_stiffness = 4.0 * stiffness;
+    let damping = damping_n_m_s_per_rad.unwrap_or(DAMPING_PER_STIFFNESS_S * wall_stiffness);
+    Detents { pitch: pitch_rad, stiffness, damping, snap, first, last, wall_stiffness, max_force: torque_n_m }
+}
+
+/// End stops of a dial between two angles. Without a damping, N·m·s/rad, 0.001, or as much as the device asks for.
+pub fn ends(between_rad: [f32; 2], stiffness_n_m_per_rad: f32, damping_n_m_s_per_rad: Option<f32>) -> Ends {
+    let damping_n_m_s_per_rad =
+        damping_n_m_s_per_rad.unwrap_or((DAMPING_PER_STIFFNESS_S * stiffness_n_m_per_rad).max(1e-3));
+    Ends { between_rad, stiffness_n_m_per_rad, damping_n_m_s_per_rad }
+}
 
 impl<L: Line> Device<L> {
     /// Sets a part of the knob's feel. The first part that is set changes a copy of the feel that is active; the old

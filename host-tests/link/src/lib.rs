@@ -11,6 +11,7 @@ mod stopping;
 mod upload;
 
 pub use device::{ALIVE, Device};
+pub use dial::{clicks, ends};
 pub use error::Error;
 pub use line::Line;
 pub use orders::{ANSWER, TRIES};

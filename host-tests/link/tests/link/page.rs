@@ -42,12 +42,11 @@ fn the_frames_of_the_page_are_those_that_are_sent() {
     }
 }
 
-/// The first block of Python on the page packs the same frames.
+/// The Python that the page names packs the same frames.
 #[test]
-fn the_python_of_the_page_packs_the_same_frames() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/howto/link.md");
-    let page = std::fs::read_to_string(path).unwrap();
-    let block = page.split("```python\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
+fn the_python_of_the_hosts_packs_the_same_frames() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../hosts/frames.py");
+    let block = std::fs::read_to_string(path).unwrap();
     let code = format!(
         "{block}\nfor told in HELLO, ALIVE, STOP, push(1, 0, 0, 0.5), push(300, 1.5, -2, 0.1): print(told.hex())"
     );

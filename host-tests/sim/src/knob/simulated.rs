@@ -5,12 +5,13 @@ use crate::plant::{DialSettings, Fingers};
 use crate::simulated::{AtPins, CLOCK_HZ, SimulatedBench, SimulatedBoard};
 use palpate::commission::Wiring;
 use palpate::device::drive::Field;
-use palpate::device::{Counts, Dial, Duty, ElectricalAngle};
+use palpate::device::{Counts, Dial, Duty};
 use palpate::servo::{Guarded, Knob, ResetReason};
 use palpate_bench::sensors::BadFrame;
 use palpate_bench::store::{KeptFeels, PretendedFlash};
 use palpate_bench::{Felt, Panel, Settings};
 use palpate_link::Line;
+use std::f64::consts::TAU;
 use std::io;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -28,7 +29,10 @@ pub struct KnobWorld {
     pub resets: bool,
     /// A hand confirms what the device asks for: from this time on it holds the button for 0.6 s.
     pub confirms_at: Option<f64>,
+    /// Whole turns of the dial that its reported angle does not count.
+    pub turns: i32,
     /// Where it is kept, for each tick: angle, rate and torque of the feel, angle and torque of the shaft; radians, s, N·m.
+    /// Both angles without those turns.
     pub trace: Option<Vec<[f64; 5]>>,
 }
 
@@ -46,6 +50,7 @@ impl SharedKnob {
             turns_from: f64::INFINITY,
             resets: false,
             confirms_at: None,
+            turns: 0,
             trace: None,
         })))
     }
@@ -99,11 +104,11 @@ impl AtPins<1> for SharedKnob {
     }
 
     /// As the stage of the boards does it ([`palpate::device::drive::ThreePhase`]).
-    fn advance(&mut self, fields: Option<[ElectricalAngle; 1]>, duties: Option<[Duty; 1]>) {
-        let field = fields.zip(duties).map(|([angle], [duty])| Field { angle, duty });
+    fn advance(&mut self, fields: Option<[Field; 1]>, duties: Option<[Duty; 1]>) {
+        let widths = fields.zip(duties).map(|([field], [duty])| MODULATION.widths(field, duty).map(f64::from));
         let mut world = self.world();
         world.hand();
-        world.dial.advance(field.map(|field| MODULATION.widths(field).map(f64::from)));
+        world.dial.advance(widths);
     }
 }
 
@@ -165,7 +170,8 @@ impl SimulatedKnob {
         let felt = state.witness();
         let [angle, rate, torque] = [felt.angle().unwrap_or(f32::NAN), state.rates()[0], felt.torque()].map(f64::from);
         let mut world = self.knob.world();
-        let shaft = [world.dial.angle(), world.dial.torque()];
+        world.turns = felt.base();
+        let shaft = [world.dial.angle() - TAU * f64::from(world.turns), world.dial.torque()];
         if let Some(trace) = &mut world.trace {
             trace.push([angle, rate, torque, shaft[0], shaft[1]]);
         }

@@ -271,11 +271,15 @@ impl Rig {
         Self::aligning().run()
     }
 
+    pub fn running_with(dial: DialSettings) -> Self {
+        Self::with(dial, ResetReason::PowerOn).align().run()
+    }
+
     /// Running, with a sensor so quiet that what is felt of a feel is hardly its noise.
     pub fn running_quietly() -> Self {
         let mut dial = DialSettings::gimbal_knob();
         dial.sensor.noise /= 8.0;
-        Self::with(dial, ResetReason::PowerOn).align().run()
+        Self::running_with(dial)
     }
 
     fn run(self) -> Self {

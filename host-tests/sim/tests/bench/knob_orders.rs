@@ -8,7 +8,7 @@ use palpate::wire::frame::{MAX_FRAME, Received, Receiver, pack};
 use palpate::wire::{Answer, DeviceMessage, Hello, HostMessage, KeepError, PROTOCOL, Refused, Upload};
 use palpate_bench::Idle;
 use palpate_sim::knob::{FEELS, LET_GO, SETTINGS};
-use palpate_sim::plant::Fingers;
+use palpate_sim::plant::{DialSettings, Fingers, ThreePhaseMotor};
 use palpate_sim::simulated::{NoWatchdog, Wire};
 use rand::{Rng, RngExt as _, SeedableRng};
 use rand_pcg::Pcg64;
@@ -119,7 +119,18 @@ fn stiff_part(random: &mut Pcg64, angle: f32) -> FeelPart {
 
 #[test]
 fn whatever_feel_is_taken_a_dial_that_is_let_go_of_comes_to_rest() {
-    let mut device = Device::new(Rig::running());
+    let usual = DialSettings::gimbal_knob();
+    comes_to_rest(usual);
+    // Without friction nothing but the loop brakes it.
+    let free = DialSettings { coulomb_friction: 0.0, viscous_friction: 0.0, ..usual };
+    comes_to_rest(free);
+    // Nor does a motor whose speed for a volt was stated a quarter too low.
+    let motor = ThreePhaseMotor { rpm_per_volt: usual.motor.rpm_per_volt / 0.75, ..usual.motor };
+    comes_to_rest(DialSettings { motor, ..free });
+}
+
+fn comes_to_rest(dial: DialSettings) {
+    let mut device = Device::new(Rig::running_with(dial));
     device.send(&HostMessage::Hello { protocol: PROTOCOL });
     (0..4).for_each(|_| device.tick());
     let mut random = Pcg64::seed_from_u64(71);
@@ -140,6 +151,7 @@ fn whatever_feel_is_taken_a_dial_that_is_let_go_of_comes_to_rest() {
             1 => vec![FeelPart::Damping(1.12e-3), FeelPart::Spring(Some(spring))],
             2 => vec![FeelPart::Damping(3.2e-3), FeelPart::Spring(Some(spring))],
             3 => vec![FeelPart::Damping(1.12e-3), FeelPart::Ends(Some(ends))],
+            4 => vec![],
             _ => {
                 let damping = FeelPart::Damping(random.random_range(0.0..1.5e-3));
                 [damping].into_iter().chain((0..5).map(|_| stiff_part(&mut random, angle))).collect()
@@ -525,7 +537,6 @@ fn no_change_of_the_feel_makes_a_step_while_a_hand_turns_the_dial() {
 #[test]
 fn a_kept_or_early_spring_leaves_the_dial_where_it_is() {
     use palpate_sim::knob::{KnobFlash, SharedKnob, SimulatedKnob};
-    use palpate_sim::plant::DialSettings;
 
     /// Ticks until the knob is aligned and its force is there, after a hand has turned the dial on.
     fn enable(device: &mut palpate_link::Device<SimulatedKnob>, knob: &SharedKnob, turned: f64) -> f64 {

@@ -1,12 +1,13 @@
 //! A dial on a motor with three phases, through the same loop as every device.
 
 mod faults;
+mod frame;
 mod heat;
 mod lost_phase;
 
 use palpate::device::drive::Supply;
 use palpate::device::{Counts, Duty, Refusal};
-use palpate::render::{Feel, Wave};
+use palpate::render::{Feel, Spring, Wave};
 use palpate::servo::{Config, Fault, Input, Knob, Output, Phase, Servo, Settings};
 use palpate_sim::knob::{FEELS, HostKnob, LET_GO, NAMES, SEARCH, SETTINGS, device};
 use palpate_sim::plant::{Dial, DialSettings, Fingers, MagneticFault};
@@ -154,6 +155,31 @@ fn a_dial_is_as_precise_after_a_million_turns_as_after_one_and_its_detents_stay_
         assert!(worst_angle < 1e-5 && worst_torque < 3e-5, "{worst_angle} {worst_torque}");
         assert_eq!(state.turns() / 8 * 8, state.turns());
     }
+}
+
+#[test]
+fn a_refused_table_names_the_feel_and_both_numbers() {
+    // As the compiler prints it: the panic is the same.
+    let refusal = |feel: Feel| {
+        let feels: &[Feel] = Box::leak(vec![Feel::FREE; 11].into_iter().chain([feel]).collect());
+        let refused = std::panic::catch_unwind(|| Knob::new(&device(None), feels, LET_GO)).unwrap_err();
+        refused.downcast_ref::<String>().unwrap().clone()
+    };
+    let spring = |stiffness: f32, most: f32, damping: f32| Feel {
+        spring: Some(Spring { stiffness_n_m_per_rad: stiffness, rest_rad: 0.0, max_torque_n_m: most }),
+        damping_n_m_s_per_rad: damping,
+        ..Feel::FREE
+    };
+    for (feel, numbers) in [
+        (spring(2.0, 0.02, 3e-3), "(2000.00, maximum 1600.00 mN·m/rad)"),
+        (spring(0.1, 0.0605, 1e-3), "(60.50, maximum 56.00 mN·m)"),
+        (spring(0.1, 0.02, 9.05e-3), "(9.05, maximum 3.20 mN·m·s/rad)"),
+        (spring(1.0, 0.02, 3e-4), "(0.30, minimum 0.70 mN·m·s/rad)"),
+    ] {
+        let said = refusal(feel);
+        assert!(said.starts_with("feel 11 of the table, counted from 0: ") && said.ends_with(numbers), "{said}");
+    }
+    assert!(refusal(spring(f32::NAN, 0.0, 0.0)).ends_with("finite and not negative"));
 }
 
 #[test]
