@@ -49,7 +49,9 @@ pub const fn check_feeds<K>(device: &Device<K, 3>, has_bridges: bool) {
         match (&device.feeds[joint], has_bridges) {
             (Feed::Current, true) => panic!("this board drives bridges: the device's feeds must be Feed::Voltage"),
             (Feed::Voltage(_), false) => {
-                panic!("this board drives amplifiers: the device's feeds must be Feed::Current")
+                panic!(
+                    "this board drives amplifiers, whose duties turn a motor on a bridge: the device has Feed::Voltage"
+                )
             }
             _ => joint += 1,
         }
@@ -67,7 +69,9 @@ pub const fn check_supply<K>(device: &Device<K, 3>, within: Option<SupplyRange>)
         if let Feed::Voltage(feed) = &device.feeds[joint]
             && !(feed.supply_v * 1e3 >= within.min_mv as f32 && feed.supply_v * 1e3 <= within.max_mv as f32)
         {
-            panic!("the supply of the device's bridges is outside of BENCH.supply: change that in src/set_up.rs")
+            panic!(
+                "the device's bridges have a supply outside of BENCH.supply: correct its file, or BENCH in src/set_up.rs"
+            )
         }
         joint += 1;
     }

@@ -1,7 +1,8 @@
 //! The loop's interface to a board.
 
 use crate::sensors::BadFrame;
-use palpate::device::{Counts, Duty, ElectricalAngle};
+use palpate::device::drive::Field;
+use palpate::device::{Counts, Duty};
 use thiserror::Error;
 
 /// The user's inputs in a tick.
@@ -74,9 +75,9 @@ pub trait Passive<const JOINTS: usize> {
 
 /// A board, as the loop sees it.
 pub trait Board<const JOINTS: usize>: Passive<JOINTS> {
-    /// Where the fields of the motors are for the duties that follow. A board whose motors have no phases takes no
+    /// The fields of the motors for the duties that follow. A board whose motors have no phases takes no
     /// notice.
-    fn aim(&mut self, _: [ElectricalAngle; JOINTS]) {}
+    fn aim(&mut self, _: [Field; JOINTS]) {}
 
     /// Enables the drives and gives them these duties.
     ///

@@ -3,7 +3,8 @@
 use crate::sensors::{BadFrame, Sensors};
 use crate::{Board, Counter, Drives, EnableInput, Lines, NotObeyed, Panel, Passive, Supply};
 use embedded_hal::digital::{InputPin, OutputPin, PinState};
-use palpate::device::{Counts, Duty, ElectricalAngle};
+use palpate::device::drive::Field;
+use palpate::device::{Counts, Duty};
 
 /// The timer that raises ticks.
 pub trait Timer {
@@ -95,7 +96,7 @@ where
     D: Drives<JOINTS>,
 {
     #[inline]
-    fn aim(&mut self, fields: [ElectricalAngle; JOINTS]) {
+    fn aim(&mut self, fields: [Field; JOINTS]) {
         self.drives.aim(fields);
     }
 

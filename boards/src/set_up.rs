@@ -4,7 +4,7 @@ use crate::confirming::Confirming;
 use crate::led::Led;
 use crate::{Board, Hold, Interlock, Mailbox, NotObeyed, Panel};
 use palpate::commission::{JogLimits, JogLimitsError, JogRefusal, JogState, Jogging, Wiring};
-use palpate::device::drive::{Feed, Supply};
+use palpate::device::drive::{Feed, Field, Supply};
 use palpate::device::{Counts, Device, Duty};
 use palpate::wire::{Marked, Reading, hold};
 
@@ -221,7 +221,7 @@ impl<const JOINTS: usize> SetUp<JOINTS> {
         if let Some(led) = &mut self.led {
             // One motor at a time: the others have no duty, wherever their fields are.
             duties.into_iter().for_each(|duty| led.on(duty));
-            board.aim([led.angle(); JOINTS]);
+            board.aim([Field::at_rest(led.angle()); JOINTS]);
             // The sign says which way the field goes, not which way it points. It is led by a fraction of the voltage.
             duties = duties.map(|Duty(duty)| Duty(duty.saturating_abs()));
         } else {

@@ -51,6 +51,73 @@ pub const GRAVITY: f32 = 9.81;
 /// The forward map of a mechanism and the weight of its links.
 ///
 /// The device's frame is each mechanism's own; its documentation says where the axes point.
+///
+/// A mechanism of one's own, its device, and the loop on it pressed into a wall:
+///
+/// ```
+/// use palpate::device::drive::Feed;
+/// use palpate::device::{Counts, Device, Encoder, Kinematics, Motor, ProbePose};
+/// use palpate::math::{sin_cos, vec3};
+/// use palpate::patch::{Coefficients, Orientation, SecondDerivativeBounds, ShapeBounds, SplinePatch, SplineTable};
+/// use palpate::servo::{Config, Input, Servo, Settings};
+///
+/// /// Two links in a plane, the second turned by a motor in the elbow.
+/// struct Planar {
+///     links_m: [f32; 2],
+/// }
+///
+/// impl Kinematics<2> for Planar {
+///     fn pose(&self, [shoulder, elbow]: [f32; 2]) -> Option<ProbePose<2>> {
+///         let [(s, c), (s2, c2)] = [shoulder, shoulder + elbow].map(sin_cos);
+///         let [a, b] = self.links_m;
+///         let by_elbow = vec3(-b * s2, b * c2, 0.0);
+///         let by_shoulder = vec3(-a * s, a * c, 0.0) + by_elbow;
+///         let position = vec3(a * c + b * c2, a * s + b * s2, 0.0);
+///         Some(ProbePose { position, jacobian: [by_shoulder, by_elbow] })
+///     }
+/// }
+///
+/// const DEVICE: Device<Planar, 2> = Device {
+///     kinematics: Planar { links_m: [0.12, 0.12] },
+///     // 1,024 lines, four counts each, a drum ten times the pulley; the angles of the pose at which it is switched on.
+///     encoders: [Encoder::new(1.534e-4, 0.6), Encoder::new(1.534e-4, 1.2)],
+///     motors: [Motor { torque_at_full_n_m: 0.6 }; 2],
+///     feeds: [Feed::Current; 2],
+///     dry_friction_n_m: [0.005; 2],
+///     joint_range_rad: [[-0.5, 2.0], [0.3, 2.8]],
+///     // Stretched and folded the arm cannot push along itself.
+///     min_margin_m_per_rad: 0.03,
+///     max_joint_rate_rad_per_s: 30.0,
+///     max_force_n: 4.0,
+///     max_stiffness_n_per_m: 800.0,
+///     max_damping_n_s_per_m: 5.0,
+/// };
+/// const _: () = assert!(DEVICE.check().is_ok());
+/// static ARM: Device<Planar, 2> = DEVICE;
+///
+/// // 20 cm of a plane across the arm's, facing y.
+/// static WALL: SplinePatch = SplineTable {
+///     degree: [1, 1], breaks_u: &[0.0, 1.0], breaks_v: &[0.0, 1.0],
+///     coefficients: Coefficients::Polynomial(&[[0.0; 3], [0.2, 0.0, 0.0], [0.0, 0.0, 0.2], [0.0; 3]]),
+///     shape: ShapeBounds::unknown(SecondDerivativeBounds::ZERO), orientation: Orientation::Outward, size_m: 0.2, crc: None,
+/// }.checked();
+/// static LOOP: Servo<SplinePatch, Planar, 2> = Servo::new(&ARM, &WALL, Config {
+///     settings: Settings {
+///         rate_hz: 4_000.0, stiffness_n_per_m: 500.0, damping_n_s_per_m: 1.0, max_force_n: 4.0,
+///         // A millimetre below the probe's first place.
+///         body_origin_m: vec3(0.0, 0.1835, -0.1),
+///         ..Settings::DEFAULT
+///     },
+///     ..Config::DEFAULT
+/// });
+///
+/// let mut state = LOOP.start();
+/// for tick in 0..1_000 {
+///     // The shoulder lowers the probe.
+///     LOOP.tick(&mut state, Input::Sensors { counts: [Counts(-tick / 2), Counts(0)], enable: true });
+/// }
+/// assert!(state.gap() < -0.003 && state.force().y > 1.5, "{} m, {} N", state.gap(), state.force());
+/// ```
 pub trait Kinematics<const JOINTS: usize> {
     /// Probe position and Jacobian at these joint angles, radians; `None` where the mechanism cannot be closed.
     fn pose(&self, angles: [f32; JOINTS]) -> Option<ProbePose<JOINTS>>;

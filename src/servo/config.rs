@@ -7,7 +7,9 @@ use super::{
     Safety, SafetyError, ServoState, Settings, SettingsError, Stillness, Surface, TableCheck, Unguarded,
 };
 use crate::device::drive::Supply;
-use crate::device::{Device, Duty, Homing, HomingState, Kinematics, Protection, VelocityEstimator, ZeroOf};
+use crate::device::{
+    Device, DeviceError, Duty, Homing, HomingState, Kinematics, Protection, VelocityEstimator, ZeroOf,
+};
 use crate::math::Vec3;
 use crate::render::{Anchor, Eased, Energy, Penalty, Tool};
 use crate::track::Controller;
@@ -62,10 +64,13 @@ impl<const JOINTS: usize> Default for Config<JOINTS> {
 }
 
 /// Which part of a configuration is refused. In a `static` it is a compile error.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum ConfigError {
+    /// A constant of the device ([`Device::check`]).
+    #[error(transparent)]
+    Device(#[from] DeviceError),
     /// A setting.
     #[error(transparent)]
     Settings(#[from] SettingsError),
@@ -84,6 +89,7 @@ impl ConfigError {
     /// The same as `Display`, for a panic at compile time.
     pub const fn message(self) -> &'static str {
         match self {
+            Self::Device(error) => error.message(),
             Self::Settings(error) => error.message(),
             Self::Rendering(error) => error.message(),
             Self::Safety(error) => error.message(),
@@ -237,6 +243,9 @@ impl<'a, S: Surface, K, const JOINTS: usize> Core<'a, S, K, JOINTS> {
         config: Config<JOINTS>,
     ) -> Result<Self, ConfigError> {
         const { assert!(JOINTS >= 1 && JOINTS <= 3, "a device has one to three joints") };
+        if let Err(error) = device.check() {
+            return Err(ConfigError::Device(error));
+        }
         if let Err(error) = check::<S, K, JOINTS>(device, &config) {
             return Err(error);
         }
@@ -340,7 +349,7 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
     /// ```
     ///
     /// # Errors
-    /// The part of the configuration that is refused.
+    /// The constant of the device, or the part of the configuration, that is refused.
     pub const fn try_new(
         device: &'a Device<K, JOINTS>,
         surface: &'a S,
@@ -352,14 +361,11 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
         }
     }
 
-    /// [`Self::try_new`] for a `static`: a refused device ([`Device::check`]) or configuration does not compile.
+    /// [`Self::try_new`] for a `static`: a refused device or configuration does not compile.
     ///
     /// # Panics
     /// At compile time, naming the value.
     pub const fn new(device: &'a Device<K, JOINTS>, surface: &'a S, config: Config<JOINTS>) -> Self {
-        if let Err(error) = device.check() {
-            panic!("{}", error.message())
-        }
         match Self::try_new(device, surface, config) {
             Ok(servo) => servo,
             Err(error) => panic!("{}", error.message()),
@@ -385,7 +391,7 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
     /// ```
     ///
     /// # Errors
-    /// The part of the configuration that is refused.
+    /// The constant of the device, or the part of the configuration, that is refused.
     pub const fn try_protected(
         device: &'a Device<K, JOINTS>,
         surface: &'a S,
@@ -397,13 +403,21 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
             Err(error) => return Err(error),
         };
         let (wall, max_depth) = (&core.penalty, core.contact_watch.max_depth);
-        match Guarded::try_new(protection, &device.motors, device.dry_friction_n_m, core.rate, wall, max_depth) {
+        match Guarded::try_new(
+            protection,
+            &device.motors,
+            &device.encoders,
+            device.dry_friction_n_m,
+            core.rate,
+            wall,
+            max_depth,
+        ) {
             Ok(guard) => Ok(Self { core, guard }),
             Err(error) => Err(ConfigError::Protection(error)),
         }
     }
 
-    /// [`Self::try_protected`] for a `static`: a refused device ([`Device::check`]) or configuration does not compile.
+    /// [`Self::try_protected`] for a `static`: a refused device or configuration does not compile.
     ///
     /// # Panics
     /// At compile time, naming the value.
@@ -413,9 +427,6 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize> Servo<'a, S, K,
         protection: Protection<JOINTS>,
         config: Config<JOINTS>,
     ) -> Self {
-        if let Err(error) = device.check() {
-            panic!("{}", error.message())
-        }
         match Self::try_protected(device, surface, protection, config) {
             Ok(servo) => servo,
             Err(error) => panic!("{}", error.message()),
@@ -462,7 +473,7 @@ impl<'a, S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS
     where
         'a: 'b,
     {
-        let guard = self.guard.of_motors(&device.motors, &device.dry_friction_n_m);
+        let guard = self.guard.of_joints(&device.motors, &device.encoders, &device.dry_friction_n_m);
         let core = self.core;
         let homing = core.homing.map(|homing| homing.of_encoders(device.encoders));
         let estimators = estimators(device, &core.settings, &core.rendering);
@@ -581,5 +592,22 @@ mod tests {
         let settings = with(1.0, 20.0).settings;
         let careful = Servo::try_new(&DEVICE, &WALL, Config { settings, safety, ..Config::DEFAULT }).unwrap().core;
         assert_eq!((careful.link_ticks, careful.contact_watch.max_depth), (200, 0.2));
+    }
+
+    #[test]
+    fn a_device_read_at_run_time_is_checked_as_a_constant_one_is() {
+        let mut device = DEVICE;
+        device.encoders[1].radians_per_count = 0.0;
+        let refused = Some(ConfigError::Device(DeviceError::Encoder(1)));
+        assert_eq!(Servo::try_new(&device, &WALL, Config::DEFAULT).err(), refused);
+        let protection = crate::device::presets::WOODEN_HAPTICS_2016_PROTECTION;
+        assert_eq!(Servo::try_protected(&device, &WALL, protection, Config::DEFAULT).err(), refused);
+        // In mm/s, and in rpm.
+        let in_mm = Protection { max_probe_speed_m_per_s: 1500.0, ..protection };
+        let in_rpm = Protection { max_joint_rates_rad_per_s: [3000.0; 3], ..protection };
+        for wrong in [in_mm, in_rpm] {
+            let refused = Some(ConfigError::Protection(ProtectionError::Speed));
+            assert_eq!(Servo::try_protected(&DEVICE, &WALL, wrong, Config::DEFAULT).err(), refused);
+        }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::surface::{BakedTables, Surface, ToolContact, Touched};
 use crate::body::TableCursor;
+use crate::math::Vec3;
 use crate::render::{Hertz, Penalty};
 use crate::track::{Controller, Probe};
 
@@ -93,6 +94,10 @@ impl<S: Surface> Surface for Hertzian<'_, S> {
     fn turn(&self, witness: &mut S::Witness, turns: i32) {
         self.surface.turn(witness, turns);
     }
+
+    fn stopped(&self, witness: &mut S::Witness, probe: Vec3) {
+        self.surface.stopped(witness, probe);
+    }
 }
 
 impl<S: BakedTables> BakedTables for Hertzian<'_, S> {
@@ -132,5 +137,6 @@ mod tests {
         assert!(is_passed_on(&|told| dented.choose(told, 1), &|told| KNOB.choose(told, 1)));
         assert!(is_passed_on(&|told| dented.start_force(told), &|told| KNOB.start_force(told)));
         assert!(is_passed_on(&|told| dented.turn(told, 3), &|told| KNOB.turn(told, 3)));
+        assert!(is_passed_on(&|told| dented.stopped(told, Vec3::X), &|told| KNOB.stopped(told, Vec3::X)));
     }
 }

@@ -19,7 +19,7 @@ use crate::render::{Coupling, Ease, Friction, Passivity, Penalty, Texture};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Servo rate, Hz.
+    /// Servo rate, Hz: 20 to 100,000.
     pub rate_hz: f32,
     /// Stiffness of the surface, N/m.
     pub stiffness_n_per_m: f32,
@@ -52,7 +52,7 @@ impl Settings {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum SettingsError {
-    /// The rate is not between 1 Hz and 100 kHz.
+    /// The rate is not between 20 Hz and 100 kHz: 4.0 is no 4 kHz.
     Rate,
     /// The stiffness is negative, not finite or above the device's.
     Stiffness,
@@ -72,7 +72,7 @@ impl SettingsError {
     /// The same as `Display`, for a panic at compile time.
     pub const fn message(self) -> &'static str {
         match self {
-            Self::Rate => "the servo rate must be between 1 Hz and 100 kHz",
+            Self::Rate => "the servo rate is in Hz and must be between 20 Hz and 100 kHz",
             Self::Stiffness => "the stiffness must be between 0 and the device's maximum",
             Self::Damping => "the damping must be between 0 and the device's maximum",
             Self::MaxForce => "the maximum force must be finite and not negative",
@@ -103,7 +103,7 @@ impl Settings {
     /// # Errors
     /// The first setting that is refused.
     pub const fn check(&self, max_stiffness: f32, max_damping: f32) -> Result<(), SettingsError> {
-        if !within(self.rate_hz, 1.0, 100_000.0) {
+        if !within(self.rate_hz, 20.0, 100_000.0) {
             return Err(SettingsError::Rate);
         }
         if !within(self.stiffness_n_per_m, 0.0, max_stiffness) {
@@ -490,7 +490,9 @@ mod settings_tests {
             let damped = Settings { damping_n_s_per_m: max_damping * 1.001, ..Settings::DEFAULT };
             assert_eq!(damped.check(max_stiffness, max_damping), Err(SettingsError::Damping));
         }
-        for (rate, good) in [(0.999, false), (1.0, true), (100_000.0, true), (100_100.0, false), (0.0, false)] {
+        for (rate, good) in
+            [(4.0, false), (19.99, false), (20.0, true), (100_000.0, true), (100_100.0, false), (0.0, false)]
+        {
             assert_eq!(Settings { rate_hz: rate, ..Settings::DEFAULT }.check(1e3, 1e1).is_ok(), good, "{rate} Hz");
         }
         let still = Settings { velocity_corner_hz: 0.0, ..Settings::DEFAULT };

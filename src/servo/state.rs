@@ -3,7 +3,7 @@
 use super::contact::LostContact;
 use super::{Fault, PatchWitness, Phase, Remembered, ResetReason, Servo, Settings, Stillness, TableCheck, Tracked};
 use crate::device::drive::Supply;
-use crate::device::{Counts, Device, Duty, ElectricalAngle, HomingState};
+use crate::device::{Counts, Device, Duty, HomingState};
 use crate::math::Vec3;
 use crate::render::{Anchor, Energy, Tool};
 use crate::track::Contact;
@@ -231,13 +231,6 @@ impl<'a, S, K, const JOINTS: usize, G> Servo<'a, S, K, JOINTS, G> {
             Some(homing) => homing.drives(),
             None => false,
         }
-    }
-
-    /// Where the field of each motor is to be for the duties that the state now has; `None` for motors that do not have
-    /// three phases ([`crate::device::Reference::Fields`]), and before the first good counts.
-    #[inline]
-    pub fn fields<W, H>(&self, state: &ServoState<JOINTS, W, H>) -> Option<[ElectricalAngle; JOINTS]> {
-        self.core.homing.as_ref()?.fields(&state.readiness.homing, state.sensors.counts?)
     }
 
     /// Its device.

@@ -130,6 +130,9 @@ pub trait Surface: BakedTables {
     /// Whole turns, of the encoder's count, that are no part of the first joint's angle any more
     /// ([`super::ServoState::turns`]).
     fn turn(&self, _: &mut Self::Witness, _: i32) {}
+
+    /// The probe's place in a tick of a loop that a fault has stopped: nothing is followed.
+    fn stopped(&self, _: &mut Self::Witness, _: Vec3) {}
 }
 
 /// A tool that touches a surface, in the body's frame.

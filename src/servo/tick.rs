@@ -4,6 +4,7 @@ use super::sense::{Sensed, sense};
 use super::{
     Event, Fault, Guard, Motion, Output, Phase, SafeOutput, Servo, ServoState, Surface, TableCheck, Tracked as _,
 };
+use crate::device::drive::Field;
 use crate::device::{
     Counts, Duty, Encoder, Homing, HomingInput, HomingProgress, Kinematics, Mount, ProbePose, VelocityMethod, Wrist,
     WristError, WristState,
@@ -170,6 +171,18 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         state.output()
     }
 
+    /// The field of each motor for the duties that the state now has; `None` for motors that do not have three phases
+    /// ([`crate::device::Reference::Fields`]), and before the first good counts.
+    #[inline]
+    pub fn fields(&self, state: &ServoState<JOINTS, S::Witness, G::State>) -> Option<[Field; JOINTS]> {
+        let angles = self.core.homing.as_ref()?.fields(&state.readiness.homing, state.sensors.counts?)?;
+        let live = matches!(state.output(), Output::Drive(_));
+        // The commands of no torque are for back-EMF alone.
+        let rates = self.rates_to_feed(state);
+        let back_emf = self.core.device.feed(live, [Duty::ZERO; JOINTS], rates, state.drive.supply);
+        Some(core::array::from_fn(|joint| Field { angle: angles[joint], back_emf: back_emf[joint] }))
+    }
+
     /// The joint rates that the drives make up for: none while a field is led. The rotor is to follow it, and a hand
     /// that spins the dial is to get no volts for that. Until the polarity of all motors is confirmed none either: of a
     /// wrong one it would brake the polarity pulses, and they would take long to tell.
@@ -265,6 +278,7 @@ impl<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize, G: Guard<JOINTS>> S
         state.contact.probe = probe;
         state.drive.margin = self.core.device.workspace_margin(to_stop, &pose);
         if state.phase == Phase::Fault {
+            self.core.surface.stopped(&mut state.contact.witness, probe);
             let faults = [state.faults.first.map(|(fault, _)| fault), state.faults.later];
             // A motor that may push the wrong way would not damp.
             let may = faults.iter().flatten().all(|fault| fault.leaves_damping())

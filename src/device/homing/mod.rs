@@ -59,8 +59,11 @@ pub enum HomingError {
     #[error("the timeout is not longer than the time to hold still")]
     TimeoutTicks,
     /// A search for a field has a number that makes no sense, or takes longer than is allowed.
-    #[error("a search for a field needs a positive torque, times, pole pairs, and more time than it takes")]
+    #[error("a search for a field needs a positive torque, times, and more time than it takes")]
     Field,
+    /// A search for a field has a commutation that makes no sense ([`crate::device::Commutation::is_valid`]).
+    #[error("a commutation needs 1 to 256 pole pairs, and at least 64 counts a turn for each of them")]
+    PolePairs,
 }
 
 /// The input of a tick of homing.
@@ -114,6 +117,9 @@ impl<const JOINTS: usize> Homing<JOINTS> {
                     }
                 }
                 Reference::Fields(searches) => {
+                    if !searches[joint].commutation.is_valid() {
+                        return Err(HomingError::PolePairs);
+                    }
                     if !searches[joint].is_valid() || searches[joint].ticks() >= timeout_ticks {
                         return Err(HomingError::Field);
                     }
@@ -147,7 +153,8 @@ impl<const JOINTS: usize> Homing<JOINTS> {
             Err(HomingError::StillTicks) => panic!("still_ticks"),
             Err(HomingError::Stop) => panic!("a search for a stop"),
             Err(HomingError::TimeoutTicks) => panic!("timeout_ticks"),
-            Err(HomingError::Field) => panic!("a search for a field"),
+            Err(HomingError::Field) => panic!("a search for a field: torque, ticks, turns, or the timeout"),
+            Err(HomingError::PolePairs) => panic!("pole_pairs: 1 to 256, each of at least 64 of counts_per_turn"),
         }
     }
 

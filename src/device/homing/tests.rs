@@ -155,6 +155,13 @@ fn numbers_that_make_no_sense_are_refused() {
     assert_eq!(with(f32::NAN, 5, 50), HomingError::Angle);
     assert_eq!(with(0.0, 0, 50), HomingError::StillTicks);
     assert_eq!(with(0.0, 5, 5), HomingError::TimeoutTicks);
+    let search = |pole_pairs, torque_n_m| {
+        let commutation = Commutation { counts_per_turn: 1_024, pole_pairs };
+        let search = FieldSearch { commutation, torque_n_m, ramp_ticks: 10, turn_ticks: 100, turns: 1 };
+        Homing::try_new(ENCODERS, Reference::Fields([search; 2]), 1, 0, 1_000).err()
+    };
+    assert_eq!([search(16, 0.1), search(16, 0.0)], [None, Some(HomingError::Field)]);
+    assert_eq!([search(0, 0.1), search(17, 0.1)], [Some(HomingError::PolePairs); 2]);
 }
 
 #[test]

@@ -4,7 +4,7 @@ use super::heat::{Heat, HeatModel, Winding};
 use super::polarity::{Polarities, PolarityState};
 use super::release::{ReleaseState, ReleaseWatch};
 use super::{Guard, Motion, Remembered};
-use crate::device::{Duty, Motor, Protection, SupplyRange};
+use crate::device::{Duty, Encoder, Motor, Protection, SupplyRange};
 use crate::math::Vec3;
 use crate::render::Penalty;
 use crate::servo::Fault;
@@ -74,6 +74,7 @@ impl<const JOINTS: usize> Guarded<JOINTS> {
     pub(in crate::servo) const fn try_new(
         protection: Protection<JOINTS>,
         motors: &[Motor; JOINTS],
+        encoders: &[Encoder; JOINTS],
         dry_friction: [f32; JOINTS],
         rate: f32,
         wall: &Penalty,
@@ -97,7 +98,7 @@ impl<const JOINTS: usize> Guarded<JOINTS> {
                 None => None,
             },
             signs: match protection.polarity {
-                Some(watch) => Some(Polarities::new(&watch, dry_friction, rate, wall.max_force_n)),
+                Some(watch) => Some(Polarities::new(&watch, encoders, dry_friction, rate, wall.max_force_n)),
                 None => None,
             },
             release: ReleaseWatch::new(wall, max_depth, rate),
@@ -112,11 +113,16 @@ impl<const JOINTS: usize> Guarded<JOINTS> {
 impl<const JOINTS: usize> Guard<JOINTS> for Guarded<JOINTS> {
     type State = GuardState<JOINTS>;
 
-    fn of_motors(mut self, motors: &[Motor; JOINTS], dry_friction: &[f32; JOINTS]) -> Self {
+    fn of_joints(
+        mut self,
+        motors: &[Motor; JOINTS],
+        encoders: &[Encoder; JOINTS],
+        dry_friction: &[f32; JOINTS],
+    ) -> Self {
         for (heat, motor) in self.heat.iter_mut().zip(motors) {
             *heat = heat.of_motor(*motor);
         }
-        self.signs = self.signs.map(|signs| signs.of_friction(*dry_friction));
+        self.signs = self.signs.map(|signs| signs.of_joints(encoders, *dry_friction));
         self
     }
 
@@ -266,7 +272,7 @@ pub enum ProtectionError {
     Continuous,
     /// A motor's time constant is below 100 or above 2,400,000 ticks, above ten minutes, or not a number.
     TimeConstant,
-    /// A speed is not above zero.
+    /// A speed is not above zero, of the probe above 10 m/s, or of a joint above 500 rad/s.
     Speed,
     /// The supply's range holds nothing.
     Supply,
@@ -282,7 +288,9 @@ impl ProtectionError {
             Self::TimeConstant => {
                 "a winding's time constant must be between 100 and 2,400,000 ticks, and at most ten minutes"
             }
-            Self::Speed => "the maximum speeds must be positive",
+            Self::Speed => {
+                "the maximum speeds must be positive, of the probe at most 10 m/s, of a joint at most 500 rad/s"
+            }
             Self::Supply => "the supply's minimum voltage must be below its maximum",
             Self::Inertia => "the joints' inertias must be positive and finite",
         }
@@ -294,6 +302,10 @@ crate::message::display!(ProtectionError);
 /// Ten minutes at 4 kHz. Each turn rounds the heat down, so that it stays below its end by this number over the joints:
 /// up to 0.08 % of the square of full duty. A shorter constant is safe.
 const MAX_CONSTANT_TICKS: f32 = 2.4e6;
+
+/// No hand is as fast: a larger number is one of mm/s, or of rpm.
+const MAX_PROBE_SPEED_M_PER_S: f32 = 10.0;
+const MAX_JOINT_RATE_RAD_PER_S: f32 = 500.0;
 
 /// Checks a protection for a loop of `rate`, Hz.
 pub(super) const fn check<const JOINTS: usize>(
@@ -312,8 +324,9 @@ pub(super) const fn check<const JOINTS: usize>(
         if !lasts {
             return Err(ProtectionError::TimeConstant);
         }
-        let moves = protection.max_joint_rates_rad_per_s[joint] > 0.0;
-        if !moves {
+        let rate = protection.max_joint_rates_rad_per_s[joint];
+        let is_rate = rate > 0.0 && rate <= MAX_JOINT_RATE_RAD_PER_S;
+        if !is_rate {
             return Err(ProtectionError::Speed);
         }
         if let Some(signs) = &protection.polarity {
@@ -324,8 +337,9 @@ pub(super) const fn check<const JOINTS: usize>(
         }
         joint += 1;
     }
-    let moves = protection.max_probe_speed_m_per_s > 0.0;
-    if !moves {
+    let speed = protection.max_probe_speed_m_per_s;
+    let is_speed = speed > 0.0 && speed <= MAX_PROBE_SPEED_M_PER_S;
+    if !is_speed {
         return Err(ProtectionError::Speed);
     }
     if let Some(SupplyRange { min_mv: least, max_mv: most }) = protection.supply

@@ -14,7 +14,7 @@ pub use heat::Heat;
 
 use super::Fault;
 use super::gate::gate;
-use crate::device::{Duty, Motor, ProbePose};
+use crate::device::{Duty, Encoder, Motor, ProbePose};
 use crate::math::Vec3;
 use crate::render::Penalty;
 use core::fmt::Debug;
@@ -41,9 +41,9 @@ pub trait Guard<const JOINTS: usize>: Copy + Debug {
     /// Its state from tick to tick.
     type State: Remembered;
 
-    /// The same for motors, and joints of a dry friction, N·m, that are not those it was made for.
+    /// The same for motors, encoders, and joints of a dry friction, N·m, that are not those it was made for.
     #[must_use]
-    fn of_motors(self, motors: &[Motor; JOINTS], dry_friction: &[f32; JOINTS]) -> Self;
+    fn of_joints(self, motors: &[Motor; JOINTS], encoders: &[Encoder; JOINTS], dry_friction: &[f32; JOINTS]) -> Self;
 
     /// The same for a loop of another wall, which gives contact up at a depth, m.
     #[must_use]
@@ -120,7 +120,7 @@ pub struct Unguarded;
 impl<const JOINTS: usize> Guard<JOINTS> for Unguarded {
     type State = ();
 
-    fn of_motors(self, _: &[Motor; JOINTS], _: &[f32; JOINTS]) -> Self {
+    fn of_joints(self, _: &[Motor; JOINTS], _: &[Encoder; JOINTS], _: &[f32; JOINTS]) -> Self {
         self
     }
 

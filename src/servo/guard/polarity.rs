@@ -21,7 +21,7 @@
 //! pulse decides: `Δx` as a fraction of `u T²/2I`, the motion of the joint alone, is summed up until the sum is clear.
 
 use super::Motion;
-use crate::device::PolarityCheck;
+use crate::device::{Device, Encoder, Kinematics, PolarityCheck, ProbePose};
 use crate::math::{Vec3, inverse_sqrt_from_below};
 use crate::servo::Fault;
 
@@ -52,6 +52,9 @@ const REST: f32 = 0.06;
 const KNOCKS: u8 = 24;
 /// Minimum expected displacement of the probe, m: a pulse with less is ignored.
 const LEAST: f32 = 2e-5;
+/// The same of the joint, in counts of its encoder; a pulse of less than twice that contributes less. Otherwise rounding
+/// decides, and a wrong motor is taken for right.
+const COUNTS: f32 = 2.0;
 /// The time in which force and weight come once all joints were seen, s.
 const RISE: f32 = 0.05;
 
@@ -62,6 +65,8 @@ pub(super) struct Polarities<const JOINTS: usize> {
     yields: [f32; JOINTS],
     /// The dry friction of each joint, N·m: the part of a pulse that moves nothing.
     friction: [f32; JOINTS],
+    /// Minimum expected turn of each joint by a pulse, rad.
+    least: [f32; JOINTS],
     /// Maximum displacement of the probe by a pulse on a joint alone, m.
     way: f32,
     /// Maximum force of a pulse, N.
@@ -186,6 +191,7 @@ impl<const JOINTS: usize> PolarityState<JOINTS> {
 impl<const JOINTS: usize> Polarities<JOINTS> {
     pub(super) const fn new(
         watch: &PolarityCheck<JOINTS>,
+        encoders: &[Encoder; JOINTS],
         friction: [f32; JOINTS],
         rate: f32,
         max_force_n: f32,
@@ -204,6 +210,7 @@ impl<const JOINTS: usize> Polarities<JOINTS> {
         Self {
             yields,
             friction,
+            least: least(encoders),
             way: 0.5 * SPEED * knock,
             force: 0.0,
             asked: 0.0,
@@ -214,9 +221,23 @@ impl<const JOINTS: usize> Polarities<JOINTS> {
         .of_max_force(max_force_n)
     }
 
-    /// The same of joints of another dry friction, N·m.
-    pub(super) fn of_friction(self, friction: [f32; JOINTS]) -> Self {
-        Self { friction, ..self }
+    /// The same of joints of other encoders and another dry friction, N·m.
+    pub(super) fn of_joints(self, encoders: &[Encoder; JOINTS], friction: [f32; JOINTS]) -> Self {
+        Self { friction, least: least(encoders), ..self }
+    }
+
+    /// The torque of a pulse that presses with 1 N, or a little less, and that which moves the probe at `SPEED`, N·m.
+    /// `None` at a singularity.
+    #[inline(always)]
+    fn torques(&self, pose: &ProbePose<JOINTS>, joint: usize) -> Option<[f32; 2]> {
+        let squared = pose.force_of_joint(joint).length_squared();
+        if !squared.is_finite() {
+            return None;
+        }
+        let lever = inverse_sqrt_from_below(squared);
+        // No faster than `SPEED`, for a column is no shorter than its lever.
+        let column = pose.jacobian[joint].length_squared();
+        Some([lever, self.way * lever / (self.yields[joint] * column) + self.friction[joint]])
     }
 
     /// The same for a loop of another maximum force, N.
@@ -287,8 +308,9 @@ impl<const JOINTS: usize> Polarities<JOINTS> {
         if state.is_knocking && joint < JOINTS {
             let moved = moving.angles[joint] - 3.0 * (first[joint] - second[joint]) - third[joint];
             let alone = (state.torque.abs() - self.friction[joint]) * self.yields[joint];
-            if alone * moving.pose.jacobian[joint].length() >= LEAST {
-                let says = if state.torque < 0.0 { -moved } else { moved } / alone;
+            if alone >= self.least[joint] && alone * moving.pose.jacobian[joint].length() >= LEAST {
+                let turn = alone.max(2.0 * self.least[joint]);
+                let says = if state.torque < 0.0 { -moved } else { moved } / turn;
                 state.sums[joint] += says.clamp(-SAYS, SAYS);
             }
             if state.sums[joint] <= WRONG {
@@ -323,22 +345,50 @@ impl<const JOINTS: usize> Polarities<JOINTS> {
         if waits || joint >= JOINTS || state.sums[joint] >= GOOD {
             return;
         }
-        let of_torque = moving.pose.force_of_joint(joint);
-        let squared = of_torque.length_squared();
-        if !squared.is_finite() {
-            return;
-        }
-        // The torque that presses with 1 N, or a little less.
-        let lever = inverse_sqrt_from_below(squared);
-        // No faster than `SPEED`, for a column is no shorter than its lever.
-        let column = moving.pose.jacobian[joint].length_squared();
-        let fast = self.way * lever / (self.yields[joint] * column) + self.friction[joint];
+        let Some([lever, fast]) = self.torques(moving.pose, joint) else { return };
         let most = self.force * lever;
         let torque = if fast < most { fast } else { most };
         state.is_knocking = true;
         state.knocks -= 1;
         state.torque = if felt[joint] < 0.0 { -torque } else { torque };
-        state.force = of_torque * state.torque;
+        state.force = moving.pose.force_of_joint(joint) * state.torque;
+    }
+}
+
+/// The minimum expected turns.
+const fn least<const JOINTS: usize>(encoders: &[Encoder; JOINTS]) -> [f32; JOINTS] {
+    let mut least = [0.0; JOINTS];
+    let mut joint = 0;
+    while joint < JOINTS {
+        least[joint] = COUNTS * encoders[joint].radians_per_count.abs();
+        joint += 1;
+    }
+    least
+}
+
+impl<const JOINTS: usize> PolarityCheck<JOINTS> {
+    /// The maximum force of a loop from which on the polarity pulses of each joint can be judged at these angles, N:
+    /// below it a pulse, a quarter of that force, does not turn the joint far enough against its dry friction and the
+    /// counts of its encoder, and the force stays withheld. Infinite for an encoder that is too coarse; `None` outside
+    /// the workspace.
+    pub fn min_force_n<K: Kinematics<JOINTS>>(
+        &self,
+        device: &Device<K, JOINTS>,
+        rate_hz: f32,
+        angles: [f32; JOINTS],
+    ) -> Option<[f32; JOINTS]> {
+        let check = Polarities::new(self, &device.encoders, device.dry_friction_n_m, rate_hz, 0.0);
+        let pose = device.kinematics.pose(angles)?;
+        let mut forces = [f32::INFINITY; JOINTS];
+        for (joint, force) in forces.iter_mut().enumerate() {
+            let [lever, fast] = check.torques(&pose, joint)?;
+            let turn = check.least[joint].max(LEAST / pose.jacobian[joint].length());
+            let torque = check.friction[joint] + turn / check.yields[joint];
+            if torque <= fast {
+                *force = torque / (lever * ON_TRIAL);
+            }
+        }
+        Some(forces)
     }
 }
 
@@ -358,12 +408,17 @@ mod tests {
             .pose(device.joint_range_rad.map(|[least, most]| 0.5 * (least + most)))
             .expect("within reach");
         let friction = of_range.jacobian.map(|column| FRICTION_WITHIN * device.max_force_n * column.length());
-        let signs = Polarities::new(&protection.polarity.expect("watched"), friction, 4_000.0, device.max_force_n);
+        let watch = protection.polarity.expect("watched");
+        let signs = Polarities::new(&watch, &device.encoders, friction, 4_000.0, device.max_force_n);
         for (joint, column) in device.kinematics.pose(middle).expect("within reach").jacobian.into_iter().enumerate() {
             let reach = column.length();
             let most = (signs.force * reach).min(signs.way / (signs.yields[joint] * reach) + friction[joint]);
             let way = (most - friction[joint]) * signs.yields[joint] * reach;
-            assert!(way >= LEAST, "joint {joint}: {most} N·m against {}: {way} m", friction[joint]);
+            assert!(
+                way >= LEAST && way >= signs.least[joint] * reach,
+                "joint {joint}: {most} N·m against {}: {way} m",
+                friction[joint]
+            );
         }
     }
 

@@ -185,7 +185,7 @@ fn a_device_that_is_let_go_under_force_is_stopped_by_its_speed() {
         Config { settings: settings(&WOODEN_HAPTICS_2016, Vec3::ZERO), ..Config::DEFAULT },
     );
     let slow = Protection { max_probe_speed_m_per_s: 0.3, polarity: None, ..WOODEN_HAPTICS_2016_PROTECTION };
-    let slow_joints = Protection { max_joint_rates_rad_per_s: [2.0; 3], max_probe_speed_m_per_s: 1e3, ..slow };
+    let slow_joints = Protection { max_joint_rates_rad_per_s: [2.0; 3], max_probe_speed_m_per_s: 10.0, ..slow };
     for (servo, is_fast) in [
         (Servo::protected(servo.device(), servo.surface(), slow, servo.config()), 0),
         (Servo::protected(servo.device(), servo.surface(), slow_joints, servo.config()), 1),

@@ -3,7 +3,8 @@
 use crate::protected::{Bench, FALCON, PHANTOM, POLHEM, RATE, WOODEN_HAPTICS, settings};
 use crate::surfaces::{WALL, table1c};
 use palpate::device::drive::{Feed, VoltageFeed};
-use palpate::device::{Counts, Duty, Kinematics, SerialArm};
+use palpate::device::presets::WOODEN_HAPTICS_2016;
+use palpate::device::{Counts, Device, Duty, Kinematics, SerialArm};
 use palpate::math::{Vec3, vec3};
 use palpate::servo::recommended::{self, Recommended};
 use palpate::servo::{Config, Fault, Input, Servo};
@@ -357,6 +358,23 @@ fn no_wrong_joint_is_taken_for_right_by_whoever_touches() {
     wrong_hands(&POLHEM, FEW, FIRM);
     wrong_hands(&PHANTOM, FEW, FIRM);
     wrong_hands(&FALCON, FEW, FIRM);
+}
+
+#[test]
+fn a_maximum_force_whose_pulses_are_too_weak_gives_no_force_and_takes_no_wrong_joint_for_right() {
+    static WEAK: Device<SerialArm, 3> = Device {
+        max_force_n: 0.2 * WOODEN_HAPTICS_2016.max_force_n,
+        max_stiffness_n_per_m: 0.1 * WOODEN_HAPTICS_2016.max_stiffness_n_per_m,
+        ..WOODEN_HAPTICS_2016
+    };
+    let check = WOODEN_HAPTICS.protection.polarity.unwrap();
+    let needed = check.min_force_n(&WEAK, RATE as f32, [0.0, 0.5, 0.2]).unwrap();
+    println!("needed {needed:?} N");
+    assert!(
+        needed.iter().any(|force| *force > WEAK.max_force_n)
+            && needed.iter().all(|force| *force < WOODEN_HAPTICS_2016.max_force_n)
+    );
+    wrong_hands(&Bench { device: &WEAK, ..WOODEN_HAPTICS }, 24, FIRM);
 }
 
 #[test]

@@ -20,7 +20,8 @@ const SETTINGS: Settings = Settings {
     rate_hz: RATE as f32,
     stiffness_n_per_m: 300.0,
     damping_n_s_per_m: 1.0,
-    max_force_n: 2.0,
+    // Enough for the pulses of the polarity check.
+    max_force_n: 4.0,
     velocity_corner_hz: 80.0,
     soft_start_s: 0.1,
     ..Settings::DEFAULT
@@ -179,7 +180,7 @@ fn no_request_is_a_step_to_a_hand_that_presses() {
 
 #[test]
 fn after_the_ramp_each_bit_is_that_of_a_loop_built_with_the_new_gains() {
-    let asked = Tuning { stiffness_n_per_m: 550.0, damping_n_s_per_m: 2.0, max_force_n: 4.0 };
+    let asked = Tuning { stiffness_n_per_m: 550.0, damping_n_s_per_m: 2.0, max_force_n: 3.0 };
     let tunable = Tunable::new(Servo::new(&DEVICE, &WALL, config(Rendering::SMOOTH, Tuning::of(&SETTINGS))));
     let built = Servo::new(&DEVICE, &WALL, config(Rendering::SMOOTH, asked));
     let (mut plant, mut state) = (plant(Pressing), tunable.start());
