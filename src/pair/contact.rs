@@ -1,6 +1,6 @@
 //! The contacts of a tool with a body: where, in which direction, and how far.
 
-use super::parts::Part;
+use super::parts::{Kind, Part};
 use super::step::Pair;
 use super::tool::{Tool, unit};
 use super::tracker::ToolWitness;
@@ -64,8 +64,9 @@ impl ToolContact {
     }
 
     /// Of a part that may have waited since its last visit: of its plane, or of a border's point.
+    #[inline(always)]
     fn of_part(part: &Part, within: &Within) -> Option<Self> {
-        if part.is_at_rest() || part.normal == Vec3::ZERO {
+        if part.normal == Vec3::ZERO {
             return None;
         }
         if part.is_border() {
@@ -135,8 +136,23 @@ impl Manifold {
         self.pressed_count = count;
     }
 
+    /// Enters the contacts of parts of one kind.
+    fn enter_parts<'a>(&mut self, parts: impl Iterator<Item = &'a Part>, within: &Within, size: f32) {
+        let first = usize::from(self.count);
+        for part in parts {
+            if let Some(contact) = ToolContact::of_part(part, within) {
+                self.enter(&contact, first, size);
+            }
+        }
+    }
+
     /// Enters a contact among those from `first` on, by its gap, unless one of all is the same.
-    fn enter(&mut self, contact: ToolContact, first: usize, size: f32) {
+    fn enter(&mut self, contact: &ToolContact, first: usize, size: f32) {
+        // Every place is taken by one as near.
+        let is_full = usize::from(self.count) == MAX_CONTACTS;
+        if is_full && (first == MAX_CONTACTS || contact.gap >= self.contacts[MAX_CONTACTS - 1].gap) {
+            return;
+        }
         let same = SAME_ARM * size;
         let is_known = self.contacts().iter().any(|known| {
             (known.arm - contact.arm).length_squared() <= same * same && known.normal.dot(contact.normal) > SAME_NORMAL
@@ -144,9 +160,8 @@ impl Manifold {
         if is_known {
             return;
         }
-        let mut entering = contact;
-        for index in first..MAX_CONTACTS {
-            let slot = &mut self.contacts[index];
+        let mut entering = *contact;
+        for (index, slot) in self.contacts.iter_mut().enumerate().skip(first) {
             if index >= usize::from(self.count) {
                 *slot = entering;
                 self.count += 1;
@@ -172,24 +187,25 @@ impl ToolWitness {
         let within = Within { placement, radius: tool.radius(), reach_m, reach_rad };
         manifold.count = 0;
         let (region, size) = (tool.region(), body.size());
-        let mut enter = |contacts: &mut dyn Iterator<Item = ToolContact>| {
-            let first = usize::from(manifold.count);
-            contacts.for_each(|contact| manifold.enter(contact, first, size));
-        };
-        let of_pair = |pair: &Pair| {
-            ToolContact::of(pair.a.point(), pair.b.point(), &within, |away| pair.a.outward(body).dot(away) > 0.0)
-        };
-        let of_part = |part: &Option<Part>| ToolContact::of_part(part.as_ref()?, &within);
-        let pair = ToolContact::of(self.pair.a.point(), self.pair.b.point(), &within, |_| self.is_in_front);
-        enter(&mut pair.into_iter());
-        enter(&mut self.parts.corners.iter().take(usize::from(self.parts.count[0])).filter_map(of_part));
-        enter(
-            &mut self
-                .vertices(&region, placement)
-                .filter_map(|(a, b)| ToolContact::of(a.point(), b, &within, |away| a.outward(body).dot(away) > 0.0)),
-        );
-        enter(&mut self.parts.borders.iter().filter_map(of_part));
-        enter(&mut self.parts.edges.iter().take(usize::from(self.parts.count[1])).filter_map(of_part));
-        enter(&mut self.rivals.iter().flatten().filter_map(of_pair));
+        if let Some(contact) = ToolContact::of(self.pair.a.point(), self.pair.b.point(), &within, |_| self.is_in_front)
+        {
+            manifold.enter(&contact, 0, size);
+        }
+        manifold.enter_parts(self.parts.awake(Kind::Corner), &within, size);
+        let first = usize::from(manifold.count);
+        for (a, b) in self.vertices(&region, placement) {
+            if let Some(contact) = ToolContact::of(a.point(), b, &within, |away| a.outward(body).dot(away) > 0.0) {
+                manifold.enter(&contact, first, size);
+            }
+        }
+        manifold.enter_parts(self.parts.awake(Kind::Border), &within, size);
+        manifold.enter_parts(self.parts.awake(Kind::Edge), &within, size);
+        let first = usize::from(manifold.count);
+        for Pair { a, b, .. } in self.rivals.iter().flatten() {
+            let is_outside = |away| a.outward(body).dot(away) > 0.0;
+            if let Some(contact) = ToolContact::of(a.point(), b.point(), &within, is_outside) {
+                manifold.enter(&contact, first, size);
+            }
+        }
     }
 }

@@ -19,6 +19,8 @@ const STALE_M: f32 = 1.0e-6;
 pub(super) const CORNERS: usize = 8;
 /// Pieces of a core's edges that are tracked: two of each of a box.
 pub(super) const EDGES: usize = 24;
+/// Borders of a face.
+pub(super) const BORDERS: usize = 4;
 
 /// The parts of a pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,9 +30,19 @@ pub(super) struct Parts {
     /// The core's edges, each with its nearest pair.
     pub edges: [Option<Part>; EDGES],
     /// The borders of the body's face.
-    pub borders: [Option<Part>; 4],
+    pub borders: [Option<Part>; BORDERS],
     /// Corners and edges that the core has.
     pub count: [u8; 2],
+    /// Which corners, borders and edges may be the nearest or in contact: a bit of each.
+    awake: [u32; 3],
+}
+
+/// Corners and edges of the core, borders of the body's face.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Kind {
+    Corner,
+    Border,
+    Edge,
 }
 
 /// A corner or an edge of the core, or a border of the body's face, with its closest pair.
@@ -57,7 +69,12 @@ impl Parts {
     /// No part. No constant: that would be copied, all 8 kB of it, where only the marks of its places have to be set.
     #[inline(always)]
     pub const fn none() -> Self {
-        Self { corners: [None; CORNERS], edges: [None; EDGES], borders: [None; 4], count: [0; 2] }
+        Self { corners: [None; CORNERS], edges: [None; EDGES], borders: [None; BORDERS], count: [0; 2], awake: [0; 3] }
+    }
+
+    /// Whether there is none: beside a convex body the pair of a point is all.
+    const fn is_empty(&self) -> bool {
+        matches!((self.count, &self.borders[0]), ([0, 0], None))
     }
 
     /// The corners, the borders and the edges: those that there are come first.
@@ -70,6 +87,27 @@ impl Parts {
     pub fn iter_mut(&mut self) -> impl Iterator<Item = &mut Option<Part>> {
         let [corners, edges] = self.count.map(usize::from);
         self.corners.iter_mut().take(corners).chain(&mut self.borders).chain(self.edges.iter_mut().take(edges))
+    }
+
+    /// Those corners, borders or edges that may be the nearest or in contact.
+    pub fn awake(&self, kind: Kind) -> impl Iterator<Item = &Part> {
+        let parts = match kind {
+            Kind::Corner => &self.corners[..],
+            Kind::Border => &self.borders[..],
+            Kind::Edge => &self.edges[..],
+        };
+        let mut left = self.awake[kind as usize];
+        core::iter::from_fn(move || {
+            let index = left.trailing_zeros();
+            left &= left.wrapping_sub(1);
+            parts.get(index as usize)?.as_ref()
+        })
+    }
+
+    /// The places of the borders, for those of another face.
+    pub const fn changed_borders(&mut self) -> &mut [Option<Part>; BORDERS] {
+        self.awake[Kind::Border as usize] = (1 << BORDERS) - 1;
+        &mut self.borders
     }
 }
 
@@ -125,9 +163,68 @@ impl Part {
         point + tangent * (saturate(from + along, 0.0, 1.0) - from)
     }
 
+    /// Takes a motion of the core, metres. Whether it may be the nearest or in contact then.
+    #[inline]
+    fn wakes(&mut self, motion: f32) -> bool {
+        self.since += motion;
+        self.rests_for -= motion;
+        !self.is_at_rest()
+    }
+
     /// Whether it can be neither the nearest nor in contact, and its pair was left where it was.
     pub fn is_at_rest(&self) -> bool {
         self.rests_for > 0.0
+    }
+}
+
+/// Result of a look at the parts: the nearest, and those whose turn it is, by their indices.
+struct Look<'a> {
+    region: Region<'static>,
+    tool: &'a Tool<'a>,
+    /// Distance of the pair.
+    least: f32,
+    is_lean: bool,
+    /// Of those that were visited.
+    best: (f32, Option<usize>),
+    /// One that may be nearer than the pair.
+    nearest: (f32, Option<usize>),
+    due: [(f32, Option<usize>); VISITS],
+}
+
+impl Look<'_> {
+    /// A part that has moved far enough.
+    fn at(&mut self, scene: &mut Scene, part: &mut Part, index: usize) {
+        let (tool, least) = (self.tool, self.least);
+        if !self.is_lean {
+            scene.visit(part);
+            part.rests_for = rest(part.distance, tool, least);
+            if part.distance < self.best.0 && !part.is_at_rest() {
+                self.best = (part.distance, Some(index));
+            }
+            return;
+        }
+        let at_least = part.least_distance(&self.region, scene.placement);
+        part.rests_for = rest(at_least, tool, least);
+        if part.rests_for > 0.0 {
+            return;
+        }
+        // A corner before the edges that end in it, whose planes lean by rounding.
+        if at_least < self.nearest.0 {
+            self.nearest = (at_least - TOUCHING * scene.body.size(), Some(index));
+        }
+        let gap = at_least - tool.radius();
+        let slack = STALE_M + if gap > 0.0 { gap } else { 0.0 };
+        if !part.is_settled || part.since * part.since >= 2.0 * tool.radius() * slack {
+            // One that has not arrived says nothing of how near the body is.
+            let short = part.since * part.since * 0.5 / tool.radius();
+            let order = if part.is_settled { at_least - short } else { 0.0 };
+            let mut entering = (order, Some(index));
+            for slot in &mut self.due {
+                if entering.0 < slot.0 {
+                    core::mem::swap(slot, &mut entering);
+                }
+            }
+        }
     }
 }
 
@@ -144,49 +241,31 @@ impl Scene<'_> {
         tool: &Tool,
         (motion, is_lean): (f32, bool),
     ) {
-        let least = self.distance(best_pair);
-        let mut best = (least - NEARER * self.body.size(), None);
-        let mut nearest = (least - NEARER * self.body.size(), None);
-        let mut due = [(f32::INFINITY, None); VISITS];
-        let region = self.region.solid();
-        for (index, part) in parts.iter_mut().enumerate() {
-            let Some(part) = part else { continue };
-            part.since += motion;
-            part.rests_for -= motion;
-            if part.rests_for > 0.0 {
-                continue;
-            }
-            if !is_lean {
-                self.visit(part);
-                part.rests_for = rest(part.distance, tool, least);
-                if part.distance < best.0 && !part.is_at_rest() {
-                    best = (part.distance, Some(index));
-                }
-                continue;
-            }
-            let at_least = part.least_distance(&region, self.placement);
-            part.rests_for = rest(at_least, tool, least);
-            if part.rests_for > 0.0 {
-                continue;
-            }
-            // A corner before the edges that end in it, whose planes lean by rounding.
-            if at_least < nearest.0 {
-                nearest = (at_least - TOUCHING * self.body.size(), Some(index));
-            }
-            let gap = at_least - tool.radius();
-            let slack = STALE_M + if gap > 0.0 { gap } else { 0.0 };
-            if !part.is_settled || part.since * part.since >= 2.0 * tool.radius() * slack {
-                // One that has not arrived says nothing of how near the body is.
-                let short = part.since * part.since * 0.5 / tool.radius();
-                let order = if part.is_settled { at_least - short } else { 0.0 };
-                let mut entering = (order, Some(index));
-                for slot in &mut due {
-                    if entering.0 < slot.0 {
-                        core::mem::swap(slot, &mut entering);
-                    }
-                }
-            }
+        if parts.is_empty() {
+            return;
         }
+        let least = self.distance(best_pair);
+        let level = least - NEARER * self.body.size();
+        let region = self.region.solid();
+        let none = [(f32::INFINITY, None); VISITS];
+        let mut look = Look { region, tool, least, is_lean, best: (level, None), nearest: (level, None), due: none };
+        let [corners, edges] = parts.count.map(usize::from);
+        let mut first = 0;
+        let Parts { corners: of_core, borders, edges: of_edges, awake, .. } = parts;
+        let kinds = [(&mut of_core[..], corners), (&mut borders[..], BORDERS), (&mut of_edges[..], edges)];
+        for ((kind, count), awake) in kinds.into_iter().zip(awake) {
+            *awake = 0;
+            for (index, part) in kind.iter_mut().take(count).enumerate() {
+                if let Some(part) = part
+                    && part.wakes(motion)
+                {
+                    look.at(self, part, first + index);
+                    *awake |= u32::from(!part.is_at_rest()) << index;
+                }
+            }
+            first += count;
+        }
+        let Look { mut best, nearest, due, .. } = look;
         let mut visits = VISITS;
         for index in core::iter::once(nearest).chain(due).filter_map(|(_, index)| index) {
             let Some(Some(part)) = parts.iter_mut().nth(index).filter(|_| visits > 0) else { continue };

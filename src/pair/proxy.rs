@@ -168,7 +168,9 @@ impl Proxy {
 
     /// A stride to the hand, with the contacts. There it holds, once the tool is outside.
     fn approach(&mut self, body: &Body, tool: &Tool, hand: &BodyPose, cells: u16) -> Result<(), ProxyError> {
-        placement_of(hand).ok_or(ProxyError::Pose)?;
+        if !hand.is_sound() {
+            return Err(ProxyError::Pose);
+        }
         let (away, (vector, scalar)) = stretch(&self.pose, hand);
         let stride = STRIDE * JUMP * body.size();
         let reach = tool.extents().max_element();
@@ -185,7 +187,8 @@ impl Proxy {
             }
         };
         self.hand = *hand;
-        let placement = placement_of(&self.pose).ok_or(ProxyError::Pose)?;
+        // Not by `ok_or`, which would move the placement twice.
+        let Some(placement) = placement_of(&self.pose) else { return Err(ProxyError::Pose) };
         let found = body.step_tool_with(tool, &mut self.state, &placement, cells, true);
         (self.distance, self.evaluations) = (found.distance, found.evaluations);
         match found.status {
@@ -228,9 +231,10 @@ impl Proxy {
         hand: &BodyPose,
         cells: u16,
     ) -> Result<(), ProxyError> {
-        let (Some(_), Some(placement)) = (placement_of(hand), placement_of(&self.pose)) else {
+        if !hand.is_sound() {
             return Err(ProxyError::Pose);
-        };
+        }
+        let Some(placement) = placement_of(&self.pose) else { return Err(ProxyError::Pose) };
         let found = body.step_tool_with(tool, &mut self.state, &placement, cells, true);
         (self.distance, self.evaluations) = (found.distance, found.evaluations);
         let is_known = matches!(found.status, ToolStatus::Following | ToolStatus::AtRest);
@@ -303,5 +307,5 @@ impl Proxy {
 
 /// The placement of a pose whose numbers are finite.
 fn placement_of(pose: &BodyPose) -> Option<Placement> {
-    pose.placement().filter(|placement| placement.origin.is_finite())
+    if pose.is_sound() { pose.placement() } else { None }
 }

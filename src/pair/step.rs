@@ -81,8 +81,8 @@ impl Foot {
     }
 }
 
-pub(super) fn patch_of<'a>(body: &Body<'a>, face: u16) -> SplinePatch<'a> {
-    body.faces().get(usize::from(face)).map_or(SplinePatch::VACANT, |face| face.patch)
+pub(super) fn patch_of<'a>(body: &Body<'a>, face: u16) -> &'a SplinePatch<'a> {
+    body.faces().get(usize::from(face)).map_or(const { &SplinePatch::VACANT }, |face| &face.patch)
 }
 
 impl Pair {
@@ -306,9 +306,9 @@ impl<'a> Joint<'a> {
                 (way, self.second.0.bend([u, v]) + of_core)
             }
         };
-        let (mut twist, mut jumps) = remainder(&patch_of(body, pair.a.face), pair.a.parameters, [u, v]);
+        let (mut twist, mut jumps) = remainder(patch_of(body, pair.a.face), pair.a.parameters, [u, v]);
         if let Region::Surface(core) = region {
-            let of_core = remainder(&patch_of(core, pair.b.face), pair.b.parameters, [r, s]);
+            let of_core = remainder(patch_of(core, pair.b.face), pair.b.parameters, [r, s]);
             (twist, jumps) = (twist + of_core.0, jumps + of_core.1);
         }
         let distance = sqrt_from_above(self.difference.length_squared());

@@ -173,8 +173,12 @@ impl Tool<'_> {
             let mut piece = [0.0; 3];
             piece[along] = half[along] / f32::from(pieces);
             let pieces = if half[along] > 0.0 && !is_double { pieces } else { 0 };
+            let (step, end) = (piece[along], half[along]);
             (0..pieces).map(move |number| {
-                middle[along] = piece[along] * f32::from(2 * number + 1) - half[along];
+                // In a closure of its own the index has lost its bound, and would be a branch to a panic.
+                if let Some(place) = middle.get_mut(along) {
+                    *place = step * f32::from(2 * number + 1) - end;
+                }
                 (Vec3::from_array(middle), Vec3::from_array(piece))
             })
         })

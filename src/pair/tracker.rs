@@ -42,6 +42,18 @@ pub enum ToolStatus {
     StepLimit,
 }
 
+impl ToolStatus {
+    /// Its name in tables; `sound` is that of points that follow the pair or rest at it.
+    pub const fn name(self, sound: &'static str) -> &'static str {
+        match self {
+            Self::Following | Self::AtRest => sound,
+            Self::Inside => "inside",
+            Self::Behind | Self::Jumped => "behind",
+            Self::StepLimit => "step-limit",
+        }
+    }
+}
+
 /// The closest pair of a body and a tool.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Closest {
@@ -107,7 +119,25 @@ impl<'a> Body<'a> {
         self.step_tool_with(tool, state, placement, cells, false)
     }
 
-    /// The same; beside a convex body with at most [`VISITS`] corners and edges in a tick, if `is_lean`.
+    /// The same, and [`Self::locate_tool`] in a tick in which the tool has jumped, the points rest behind, or the core
+    /// intersects: for a host, since a location takes far longer than a tick.
+    pub fn follow_tool(&self, tool: &Tool, state: &mut ToolWitness, placement: &Placement, cells: u16) -> Closest {
+        let step = self.step_tool(tool, state, placement, cells);
+        let needs_location = match step.status {
+            ToolStatus::Behind | ToolStatus::Jumped => true,
+            // The tracker keeps hold of a common normal.
+            ToolStatus::Inside => !state.is_inside,
+            _ => false,
+        };
+        if !needs_location {
+            return step;
+        }
+        let (start, found) = self.locate_tool(tool, placement);
+        *state = start;
+        Closest { evaluations: step.evaluations + found.evaluations, ..found }
+    }
+
+    /// The same as a step; beside a convex body with at most [`VISITS`] corners and edges in a tick, if `is_lean`.
     pub(super) fn step_tool_with(
         &self,
         tool: &Tool,
@@ -120,7 +150,8 @@ impl<'a> Body<'a> {
         let is_lean = is_lean && self.is_convex();
         let has_jumped = state.has_jumped(placement, self.size());
         let motion = core_motion(&state.placement, placement, tool.extents());
-        state.placement = *placement;
+        // Nothing here takes its velocities.
+        (state.placement.axes, state.placement.origin) = (placement.axes, placement.origin);
         if state.is_inside
             && let Core::Body(core) = *tool.core()
         {
@@ -141,8 +172,7 @@ impl<'a> Body<'a> {
         if !self.is_convex() {
             scene.audit(state, cells);
         }
-        scene.exchange(state, tool, motion);
-        let distance = scene.distance(&state.pair);
+        let distance = scene.exchange(state, tool, motion);
         state.is_in_front = scene.is_global(&state.pair);
         let status = if has_jumped {
             ToolStatus::Jumped
@@ -278,8 +308,9 @@ impl Scene<'_> {
         }
     }
 
-    /// Makes the nearest of pair, corners, edges, vertices and rivals the pair; drops rivals that are far, or one with another.
-    fn exchange(&mut self, state: &mut ToolWitness, tool: &Tool, motion: f32) {
+    /// Makes the nearest of pair, corners, edges, vertices and rivals the pair, and returns its distance; drops rivals that
+    /// are far, or one with another.
+    fn exchange(&mut self, state: &mut ToolWitness, tool: &Tool, motion: f32) -> f32 {
         let face = state.pair.a.face;
         // Of a convex body and a point the pair is all.
         let is_point = matches!(self.region, Region::Solid { half: Vec3::ZERO, .. }) && self.body.is_convex();
@@ -289,7 +320,7 @@ impl Scene<'_> {
             state.vertices_rest_for = 0.0;
             let ends = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
             state.vertices = (ends.map(|end| Foot::on(self.body, face, end)), face);
-            for (number, border) in state.parts.borders.iter_mut().enumerate() {
+            for (number, border) in state.parts.changed_borders().iter_mut().enumerate() {
                 let mut at = state.pair.a.parameters;
                 at[number / 2] = if number % 2 == 0 { 0.0 } else { 1.0 };
                 let pair = Pair::facing(Foot::on(self.body, face, at), &self.region, self.placement);
@@ -298,7 +329,8 @@ impl Scene<'_> {
                 *border = Some(part);
             }
         }
-        let mut least = self.distance(&state.pair) - NEARER * self.body.size();
+        let mut distance_of_pair = self.distance(&state.pair);
+        let mut least = distance_of_pair - NEARER * self.body.size();
         let (mut nearest, mut rest_for) = (None, f32::INFINITY);
         for (a, b) in state.vertices(&self.region, self.placement) {
             let distance = sqrt((a.point() - self.placement.point_to_a(b)).length_squared());
@@ -312,12 +344,12 @@ impl Scene<'_> {
             state.vertices_rest_for = rest_for;
         }
         if let Some(nearest) = nearest {
-            state.pair = nearest;
+            (state.pair, distance_of_pair) = (nearest, least);
         }
         for rival in state.rivals.iter_mut().flatten() {
             let distance = self.distance(rival);
             if distance < least {
-                least = distance;
+                (least, distance_of_pair) = (distance, distance);
                 core::mem::swap(rival, &mut state.pair);
             }
         }
@@ -331,6 +363,7 @@ impl Scene<'_> {
                 state.rivals[index] = None;
             }
         }
+        distance_of_pair
     }
 }
 

@@ -5,7 +5,7 @@ use core::hint::black_box;
 
 use palpate::body::{Aligned, Body, BodyBuffer, Edge, Face, MAX_FACES, TickLimit};
 use palpate::math::{Vec3, sin_cos};
-use palpate::pair::{Core, Tool, ToolSurface};
+use palpate::pair::{Core, ProxyError, Tool, ToolSurface};
 use palpate::patch::Patch as _;
 use palpate::servo::{Config, Event, Input, Rendering, Servo, Settings};
 use semihosting::println;
@@ -40,8 +40,8 @@ pub fn run(counter: &mut InstructionCounter) -> Result<(), &'static str> {
 
 fn press(counter: &mut InstructionCounter, body: &Body<'_>, name: &str, core: Core<'_>) -> Result<(), &'static str> {
     let tool = Tool::new(core, RADIUS).map_err(|_| "the tool was refused")?;
-    let (mut locating, mut holding, mut most) = (Tally::new(), Tally::new(), 0);
-    for face in body.faces() {
+    let (mut locating, mut holding, mut most, mut left_out) = (Tally::new(), Tally::new(), 0, 0);
+    for (index, face) in body.faces().iter().enumerate() {
         let surface = face.patch.evaluate(0.5, 0.5);
         let outward = surface.tangent_u.cross(surface.tangent_v).normalize_or_zero() * face.patch.orientation();
         let along = surface.tangent_u.normalize_or_zero();
@@ -56,7 +56,7 @@ fn press(counter: &mut InstructionCounter, body: &Body<'_>, name: &str, core: Co
             walk.counts(start);
         }
         servo.note(&mut state, Event::Homed);
-        let mut located = None;
+        let (mut located, mut is_inside) = (None, false);
         for index in 0..TICKS {
             let time = index as f32 / TICKS as f32;
             // In by the reach and twice the radius, and out again.
@@ -71,15 +71,37 @@ fn press(counter: &mut InstructionCounter, body: &Body<'_>, name: &str, core: Co
             let (_, instructions) = counter.count(|| black_box(servo.tick(&mut state, input)));
             located = located.or(state.witness().is_located().then_some(index + 1));
             if holds { &mut holding } else { &mut locating }.add(instructions);
+            is_inside = located.is_none() && state.witness().given_up() == Some(ProxyError::Intersects);
+            if is_inside {
+                break;
+            }
         }
-        most = most.max(located.ok_or("a tool was never located")?);
-        if state.fault().is_some() {
+        // Read by `palpate budgets`.
+        if let Some((fault, tick)) = state.fault() {
+            println!("stopped: the {name} on face {index}: {fault} at tick {tick}");
             return Err("the servo found a fault on its path");
         }
+        // In a hole the part is on the other side, too: there no hand holds this tool, nor does the loop locate it.
+        if is_inside {
+            left_out += 1;
+            continue;
+        }
+        let Some(ticks) = located else {
+            println!("stopped: the {name} on face {index}: not located within {TICKS} ticks");
+            return Err("a tool was never located");
+        };
+        most = most.max(ticks);
+    }
+    if left_out == body.faces().len() {
+        println!("stopped: the {name} lies in the part 16 mm in front of each of its patches");
+        return Err("a tool that is never outside");
     }
     locating.print_as(name, "locating");
     holding.print_as(name, "held");
     println!("\"{name}, ticks until located\" = {most}");
+    if left_out > 0 {
+        println!("\"{name}, left out: patches with the part 16 mm in front\" = {left_out}");
+    }
     println!("\"{name}, bytes of state\" = {}", size_of::<palpate::pair::HeldTool>());
     Ok(())
 }
