@@ -6,7 +6,7 @@ use super::locator::Candidate;
 use super::quadratic_model::DistanceDerivatives;
 use super::search::{Best, Search};
 use super::table::Body;
-use super::tracker::{BodyStep, BodyWitness};
+use super::tracker::{BodyStep, BodyWitness, StepLength};
 use crate::field::Displacement;
 use crate::math::{Vec3, sqrt, sqrt_from_above};
 use crate::track::{Contact, Witness};
@@ -19,7 +19,8 @@ const NEARER: f32 = 1.0e-3;
 const MARGIN: f32 = 0.01;
 /// Maximum evaluations of one candidate in a pass.
 pub(super) const MAX_EVALUATIONS_IN_AUDIT: u8 = 6;
-/// At an effort of one: maximum ticks of a pass that the tracker has for itself because it is on its way.
+/// At an effort of one: maximum ticks of a pass that the tracker has for itself because it is on its way or steps beside
+/// a pole.
 pub(super) const MAX_DEFERRED: u8 = 8;
 /// Part of a root that covers its rounding.
 const BELOW: f32 = 1.0 - 4.0 * f32::EPSILON;
@@ -132,6 +133,34 @@ impl Audit {
         self.skip(body);
     }
 
+    /// The candidate's next evaluation.
+    #[inline]
+    fn evaluate<D: Displacement>(&mut self, body: &Body<'_, D>, probe: Vec3, step: &mut BodyStep) {
+        step.evaluations += 1;
+        if self.descending.is_fresh() {
+            self.asked = probe;
+        }
+        if let Some(seen) = body.see(&self.descending, self.asked) {
+            self.seen = seen;
+        }
+        self.stage = Stage::Judge;
+    }
+
+    /// Judges it, for a tracker at this squared distance from the probe. Whether another one follows.
+    #[inline]
+    fn judge<D: Displacement>(&mut self, body: &Body<'_, D>, squared: f32) -> bool {
+        let (search, far) = (&mut self.descending, sqrt_from_above(squared) + MARGIN * body.size);
+        let status = body.judge::<false>(search, &self.seen, 0.5 * far * far);
+        match status {
+            Some(CandidateStatus::Falling | CandidateStatus::Beaten) => {}
+            Some(CandidateStatus::Found) => search.at_least = search.half_squared,
+            Some(CandidateStatus::Exhausted) | None => search.at_least = 0.0,
+        }
+        let falls = status == Some(CandidateStatus::Falling);
+        self.stage = if falls { Stage::Evaluate } else { Stage::GoOn };
+        falls
+    }
+
     fn skip<D: Displacement>(&mut self, body: &Body<'_, D>) {
         let was_favourite = self.entry == self.favourite;
         let mut is_last = !was_favourite && !self.descending.candidate.more;
@@ -193,18 +222,34 @@ impl<D: Displacement> Body<'_, D> {
 
     /// The audit of a tick on a body that is not convex, after the tracker's steps. At most the evaluations of
     /// [`super::Effort`], and one for a point that is nearer. At an effort of one, one [`Stage`] a tick, and none in up to
-    /// [`MAX_DEFERRED`] ticks of a pass in which the tracker is on its way.
+    /// [`MAX_DEFERRED`] ticks of a pass in which the tracker is on its way or takes its dearest step, beside a pole.
     #[inline(never)]
     pub(super) fn audit(&self, state: &mut BodyWitness, is_settled: bool, step: &mut BodyStep) {
         let is_single = self.effort.candidates == 1;
-        if is_single && !is_settled && state.deferred < MAX_DEFERRED {
+        if is_single && (!is_settled || step.length == StepLength::NearPole) && state.deferred < MAX_DEFERRED {
             state.deferred += 1;
             return;
         }
         let probe = state.probe;
-        let squared = (state.witness.surface.point - probe).length_squared();
-        let known = (0.5 - 0.5 * NEARER) * squared;
-        let distance = || sqrt_from_above(squared);
+        let squared = |witness: &Witness| (witness.surface.point - probe).length_squared();
+        let beaten = |squared: f32| (0.5 - 0.5 * NEARER) * squared;
+        // The dearest stages, without the questions of the others.
+        if is_single && let Some(Seeking::Nearer(audit)) = &mut state.seeking {
+            match audit.stage {
+                Stage::Evaluate => return audit.evaluate(self, probe, step),
+                Stage::Judge => {
+                    let squared = squared(&state.witness);
+                    audit.judge(self, squared);
+                    if audit.descending.half_squared < beaten(squared) {
+                        (audit.stage, audit.descending.at_least) = (Stage::SetDown, 0.0);
+                    }
+                    return;
+                }
+                _ => {}
+            }
+        }
+        let squared = squared(&state.witness);
+        let known = beaten(squared);
         let stage = match &state.seeking {
             Some(Seeking::Nearer(audit)) => audit.stage,
             _ => Stage::Start,
@@ -217,7 +262,7 @@ impl<D: Displacement> Body<'_, D> {
         if let Some(Seeking::Nearer(audit)) = &mut state.seeking
             && audit.stage == Stage::Rest
         {
-            if audit.is_certain(self, probe, distance(), &places) {
+            if audit.is_certain(self, probe, sqrt_from_above(squared), &places) {
                 return;
             }
             audit.stage = Stage::Start;
@@ -253,6 +298,9 @@ impl<D: Displacement> Body<'_, D> {
                     {
                         *free = audit.entry;
                         audit.skip(self);
+                        if is_single {
+                            return;
+                        }
                     } else if left > 0 || is_single {
                         audit.stage = Stage::Evaluate;
                     } else {
@@ -265,29 +313,11 @@ impl<D: Displacement> Body<'_, D> {
                         return;
                     }
                     left -= 1;
-                    step.evaluations += 1;
-                    if audit.descending.is_fresh() {
-                        audit.asked = probe;
-                    }
-                    if let Some(seen) = self.see(&audit.descending, audit.asked) {
-                        audit.seen = seen;
-                    }
-                    audit.stage = Stage::Judge;
+                    audit.evaluate(self, probe, step);
                 }
                 Stage::Judge => {
-                    let (search, far) = (&mut audit.descending, distance() + MARGIN * self.size);
-                    let status = self.judge::<false>(search, &audit.seen, 0.5 * far * far);
-                    let falls = status == Some(CandidateStatus::Falling);
-                    match status {
-                        Some(CandidateStatus::Falling | CandidateStatus::Beaten) => {}
-                        Some(CandidateStatus::Found) => search.at_least = search.half_squared,
-                        Some(CandidateStatus::Exhausted) | None => search.at_least = 0.0,
-                    }
-                    is_nearer = search.half_squared < known && (is_single || !falls || left == 0);
-                    audit.stage = if falls { Stage::Evaluate } else { Stage::GoOn };
-                    if is_single && is_nearer {
-                        (audit.stage, search.at_least, is_nearer) = (Stage::SetDown, 0.0, false);
-                    }
+                    let falls = audit.judge(self, squared);
+                    is_nearer = audit.descending.half_squared < known && (!falls || left == 0);
                 }
                 Stage::SetDown => (audit.stage, is_nearer) = (Stage::GoOn, true),
                 Stage::GoOn => {

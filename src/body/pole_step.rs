@@ -6,10 +6,10 @@ use super::feature::{Face, Side};
 use super::pole::{Pole, at_pole};
 use super::quadratic_model::{DistanceDerivatives, Model};
 use super::table::Body;
-use super::tracker::{BodyStep, BodyWitness};
+use super::tracker::{BodyStep, BodyWitness, StepLength};
 use crate::field::Displacement;
 use crate::math::{Vec3, saturate, sqrt_from_above};
-use crate::patch::CurvedPoint;
+use crate::patch::{CurvedPoint, SplinePatch};
 use crate::track::{Outcome, Witness, mode_at};
 
 impl<D: Displacement> Body<'_, D> {
@@ -19,15 +19,17 @@ impl<D: Displacement> Body<'_, D> {
     #[inline(never)]
     pub(super) fn step_near_pole(&self, face: &Face, state: &mut BodyWitness, step: &mut BodyStep) -> bool {
         let Witness { parameters, surface, second, halvings, .. } = state.witness;
-        if halvings != 0 {
+        let poles = face.poles();
+        if halvings != 0 || poles == 0 {
             return false;
         }
         let at = CurvedPoint { surface, second };
-        let Some(plan) = PoleStep::new(face, parameters, &at, state.probe, self.size) else {
+        let Some(plan) = PoleStep::new(poles, &face.patch, parameters, &at, state.probe, self.size) else {
             return self.leave_pole(face, state, step);
         };
         let reached = self.patch(face).evaluate_apart(plan.parameters);
         step.evaluations += 1;
+        step.length = StepLength::NearPole;
         let before = (surface.point - state.probe).length_squared();
         let is_nearer = (reached.surface.point - state.probe).length_squared() <= before - 2.0 * MIN_FALL * plan.fall;
         if is_nearer {
@@ -92,8 +94,8 @@ impl PoleStep {
     /// The step from a point, in the coordinates around the nearest pole. `None` if it would be rounding, or if there
     /// is no pole.
     #[inline(never)]
-    fn new(face: &Face, at: [f32; 2], curved: &CurvedPoint, probe: Vec3, size: f32) -> Option<Self> {
-        let pole = Pole::nearest(face.poles(), at, &face.patch, size)?;
+    fn new(poles: u8, patch: &SplinePatch, at: [f32; 2], curved: &CurvedPoint, probe: Vec3, size: f32) -> Option<Self> {
+        let pole = Pole::nearest(poles, at, patch, size)?;
         let seen = DistanceDerivatives::new(curved, curved.surface.point - probe);
         let range = [at.map(|parameter| -parameter), at.map(|parameter| 1.0 - parameter)];
         let model = Model::new(seen.near_pole(pole));

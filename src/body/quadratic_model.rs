@@ -160,10 +160,10 @@ impl Model {
         let is_below = |axis: usize| free.is_none_or(|free| free[axis] < lower[axis]);
         let is_above = |axis: usize| free.is_none_or(|free| free[axis] > upper[axis]);
         for (u, _) in [(lower[0], is_below(0)), (upper[0], is_above(0))].into_iter().filter(|side| side.1) {
-            self.consider([u, minimiser_on_line(q + b * u, c, [lower[1], upper[1]])], &mut best);
+            self.consider(u, minimiser_on_line(q + b * u, c, [lower[1], upper[1]]), &mut best);
         }
         for (v, _) in [(lower[1], is_below(1)), (upper[1], is_above(1))].into_iter().filter(|side| side.1) {
-            self.consider([minimiser_on_line(p + b * v, a, [lower[0], upper[0]]), v], &mut best);
+            self.consider(minimiser_on_line(p + b * v, a, [lower[0], upper[0]]), v, &mut best);
         }
         best
     }
@@ -175,7 +175,7 @@ impl Model {
         let ([a, b, c], spread) = (self.hessian, pole.spread());
         let (across, along) = (pole.axis(), 1 - pole.axis());
         let diagonal = [a, c];
-        let step = |beside: f32, out: f32| if across == 0 { [out, beside] } else { [beside, out] };
+        let step = |beside: f32, out: f32| if across == 0 { (out, beside) } else { (beside, out) };
         let [p, q] = self.gradient;
         let determinant = a * c - b * b;
         let free = [(b * q - c * p) / determinant, (b * p - a * q) / determinant];
@@ -190,24 +190,32 @@ impl Model {
             let width = 1.0 + spread * out;
             let slope = self.gradient[along] + b * out;
             let beside = minimiser_on_line(slope, diagonal[along], [lower[along] * width, upper[along] * width]);
-            self.consider(step(beside, out), &mut best);
+            let (u, v) = step(beside, out);
+            self.consider_here(u, v, &mut best);
         }
         for end in [lower[along], upper[along]] {
             let lean = end * spread;
             let [beside, out] = [self.gradient[along] + diagonal[along] * end, self.gradient[across] + b * end];
             let bend = lean * (diagonal[along] * lean + b + b) + diagonal[across];
             let out = minimiser_on_line(out + lean * beside, bend, [lower[across], upper[across]]);
-            self.consider(step(end + lean * out, out), &mut best);
+            let (u, v) = step(end + lean * out, out);
+            self.consider_here(u, v, &mut best);
         }
         best
     }
 
     /// Not inlined four times: flash is scarce, and the search is not in a hurry.
     #[inline(never)]
-    fn consider(&self, change: [f32; 2], best: &mut ([f32; 2], f32)) {
-        let value = self.value(change);
+    fn consider(&self, u: f32, v: f32, best: &mut ([f32; 2], f32)) {
+        self.consider_here(u, v, best);
+    }
+
+    /// Near a pole, where one tick asks all four sides.
+    #[inline(always)]
+    fn consider_here(&self, u: f32, v: f32, best: &mut ([f32; 2], f32)) {
+        let value = self.value([u, v]);
         if value < best.1 {
-            *best = (change, value);
+            *best = ([u, v], value);
         }
     }
 

@@ -162,7 +162,7 @@ impl<D: Displacement> Body<'_, D> {
     /// evaluations, at [`Effort::candidates`] a tick. A nearer point that six find is taken within two passes.
     ///
     /// At an effort of one each evaluation is judged in the next tick. A candidate's end and its nearer point have a tick
-    /// each too, a pass has three to start, and eight are left to the tracker.
+    /// each too, one that is passed over has one, a pass has three to start, and eight are left to the tracker.
     pub const fn audit_ticks(&self) -> u32 {
         let (list, evaluations) = (self.locator.longest_list() as u32, MAX_EVALUATIONS_IN_AUDIT as u32);
         match self.effort.candidates {

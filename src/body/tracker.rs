@@ -91,8 +91,20 @@ pub struct BodyStep {
     /// Whether the body is touched with a witness point farther from the probe than the probe has moved since contact
     /// started.
     pub unexplained: bool,
-    /// Whether the step was shortened.
-    pub(super) is_cut: bool,
+    /// How far the step went.
+    pub(super) length: StepLength,
+}
+
+/// How far a step goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) enum StepLength {
+    /// All the way.
+    Full,
+    /// As far as the certificate holds.
+    Cut,
+    /// Beside a pole, where the evaluation decides.
+    NearPole,
 }
 
 const _: () = assert!(size_of::<BodyWitness>() <= 256);
@@ -105,7 +117,7 @@ impl BodyStep {
         searched: false,
         evaluations: 0,
         unexplained: false,
-        is_cut: false,
+        length: StepLength::Full,
     };
 
     /// Whether the last step has entered a face over an edge. That is work enough for a tick: the borders of the new
@@ -206,7 +218,7 @@ impl<D: Displacement> Body<'_, D> {
         // Contact needs the answer of an edge's faces: one that the last step has reached is asked as well.
         while left > u8::from(!matches!(state.feature, Feature::Edge(_))) && state.goes_on(step) {
             left -= 1;
-            (step.switched, step.outcome, step.is_cut) = (false, Outcome::AtRest, false);
+            (step.switched, step.outcome, step.length) = (false, Outcome::AtRest, StepLength::Full);
             self.step_once(&Controller::SecondOrder, state, Probe::at(state.probe), 0.0, step);
             switched |= step.switched;
         }
@@ -263,9 +275,9 @@ impl<D: Displacement> Body<'_, D> {
             }
             Err(most) => {
                 let aim = Aim::in_part(most, &self.patch(face), &state.witness, probe);
-                step.is_cut = aim.gain < 1.0;
+                step.length = if aim.gain < 1.0 { StepLength::Cut } else { StepLength::Full };
                 if let Some(full) = most
-                    && step.is_cut
+                    && step.length == StepLength::Cut
                     && self.patch(face).is_rational()
                     && !core::mem::take(&mut state.takes_part)
                 {
@@ -295,7 +307,7 @@ impl<D: Displacement> Body<'_, D> {
     #[inline(never)]
     fn try_in_full(&self, face: &Face, full: &Aim, state: &mut BodyWitness, step: &mut BodyStep) {
         let aim = full.landing_at(full.landing.parameters, MIN_FALL * full.slope);
-        step.is_cut = false;
+        step.length = StepLength::Full;
         if aim.beyond != BoundaryMode::Interior
             && self.has_smooth_edges
             && self.step_over_smooth_edge(face, &aim, state, step)
@@ -409,7 +421,9 @@ impl BodyWitness {
     #[inline]
     fn goes_on(&self, step: &BodyStep) -> bool {
         let moves = match self.feature {
-            Feature::Face(_) => step.is_cut || !(self.witness.is_free || self.witness.mode == BoundaryMode::Interior),
+            Feature::Face(_) => {
+                step.length == StepLength::Cut || !(self.witness.is_free || self.witness.mode == BoundaryMode::Interior)
+            }
             // An end of an edge was reached.
             _ => step.outcome == Outcome::Moved && self.witness.mode == BoundaryMode::Corner,
         };
