@@ -1170,7 +1170,11 @@ pub static BODY: palpate::body::Body = palpate::body::BodyTables {
     is_convex: true,
     crc: Some(TABLE_CRC),
 }
-    .checked();
+    .checked()
+    .with_effort(palpate::body::Effort {
+        steps: 4,
+        candidates: 4,
+    });
 /// The type of the surface.
 #[allow(dead_code)]
 pub type Surface = palpate::body::Body<'static, palpate::field::Rigid<{ BODY.kinds() }>>;

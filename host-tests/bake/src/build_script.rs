@@ -160,6 +160,7 @@ impl Bake {
             out_file: &out_file.to_string_lossy(),
             model: text.as_bytes(),
             centre: model.centre,
+            limit,
         };
         let source = source::source(&origin, &model, &body).map_err(|cause| BakeError::Source { file, cause })?;
         fs::write(&out, source).map_err(|cause| BakeError::Write { file: out.display().to_string(), cause })?;

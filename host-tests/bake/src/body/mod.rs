@@ -136,10 +136,14 @@ impl BakedBody {
         }
     }
 
+    /// Two corners of the bounding box of a grid of points on each face, metres, in the frame of the tables.
+    pub fn extent(&self) -> [DVec3; 2] {
+        extent(&self.faces.iter().map(|face| StoredSurface::new(&face.patch)).collect::<Vec<_>>())
+    }
+
     /// How far any of some points, metres, is beyond the bounding box along any axis, in sizes; 0 if none is.
     pub fn sizes_beyond(&self, points: &[DVec3]) -> f64 {
-        let surfaces: Vec<_> = self.faces.iter().map(|face| StoredSurface::new(&face.patch)).collect();
-        let [low, high] = extent(&surfaces);
+        let [low, high] = self.extent();
         let beyond = |point: &DVec3| (low - *point).max(*point - high).max_element() / (high - low).max_element();
         points.iter().map(beyond).fold(0.0, f64::max)
     }

@@ -10,12 +10,13 @@ use crate::patch::NurbsPatch;
 use crate::topology::{Border, Topology};
 use crate::{Axis, parallel};
 use glam::{DMat3, DVec3};
+use palpate::body::EdgeKind;
 use std::f64::consts::TAU;
 
 /// All flaws of a body.
 pub fn find(patches: &[NurbsPatch], topology: &Topology) -> Vec<Flaw> {
     let facets = Facets::of(patches);
-    let crossings = find_crossings(patches, &facets, topology.size);
+    let crossings = find_crossings(patches, &facets, topology);
     let mut flaws = Vec::new();
     if let Some(first) = crossings.first() {
         flaws.push(Flaw::Crossing { patches: first.patches, pairs: crossings.len(), at: first.at });
@@ -116,6 +117,8 @@ impl Flaw {
 struct Cell {
     /// Its corners: `u` low and high, `v` low first.
     pub corners: [DVec3; 4],
+    /// Which of its corners lie on the patch's border.
+    pub on_border: [bool; 4],
     /// Its middle.
     pub parameters: [f64; 2],
     pub low: DVec3,
@@ -169,13 +172,16 @@ fn cells(patch: &NurbsPatch, steps: usize) -> Vec<Cell> {
     let rows: Vec<Vec<DVec3>> =
         along_u.iter().map(|u| along_v.iter().map(|v| Jet::of(patch, *u, *v).point).collect()).collect();
     let mut cells = Vec::with_capacity((along_u.len() - 1) * (along_v.len() - 1));
+    let is_end = |along: &[f64], k: usize| k == 0 || k == along.len() - 1;
     for (i, pair_u) in along_u.windows(2).enumerate() {
         for (j, pair_v) in along_v.windows(2).enumerate() {
             let corners = [rows[i][j], rows[i][j + 1], rows[i + 1][j], rows[i + 1][j + 1]];
             let low = corners.into_iter().fold(DVec3::INFINITY, DVec3::min);
             let high = corners.into_iter().fold(DVec3::NEG_INFINITY, DVec3::max);
             let parameters = [0.5 * (pair_u[0] + pair_u[1]), 0.5 * (pair_v[0] + pair_v[1])];
-            cells.push(Cell { corners, parameters, low, high });
+            let on_border = [[i, j], [i, j + 1], [i + 1, j], [i + 1, j + 1]]
+                .map(|[i, j]| is_end(&along_u, i) || is_end(&along_v, j));
+            cells.push(Cell { corners, on_border, parameters, low, high });
         }
     }
     cells
@@ -185,7 +191,8 @@ fn cells(patch: &NurbsPatch, steps: usize) -> Vec<Cell> {
 //
 // Facets that cut each other are a hint: between two curved surfaces that lie near each other facets cut where the
 // surfaces do not. From each hint Newton's method looks for a point of both surfaces, inside both patches, at which
-// they are not tangent.
+// they are not tangent. A border behind which the surface goes on smoothly counts as inside: an edge that is sharp may
+// only touch.
 
 /// Two patches that cut each other, and where.
 #[derive(Clone, Copy, Debug)]
@@ -208,7 +215,14 @@ const APART: f64 = 1e-2;
 const HINTS: usize = 16;
 
 /// One crossing of every pair of patches that cut each other.
-fn find_crossings(patches: &[NurbsPatch], facets: &Facets, size: f64) -> Vec<Crossing> {
+fn find_crossings(patches: &[NurbsPatch], facets: &Facets, topology: &Topology) -> Vec<Crossing> {
+    let (size, pieces) = (topology.size, topology.pieces());
+    let mut smooth = vec![[false; 4]; patches.len()];
+    for edge in topology.edges.iter().filter(|edge| edge.kind == EdgeKind::Smooth) {
+        for border in [edge.owner].into_iter().chain(edge.partner.map(|(border, _)| border)) {
+            smooth[border.patch][border.side] = true;
+        }
+    }
     let meets = |[low_a, high_a]: [DVec3; 2], [low_b, high_b]: [DVec3; 2]| {
         low_a.cmple(high_b).all() && low_b.cmple(high_a).all()
     };
@@ -223,10 +237,10 @@ fn find_crossings(patches: &[NurbsPatch], facets: &Facets, size: f64) -> Vec<Cro
             let pairs = near.iter().flat_map(|cell| others.iter().map(move |other| (*cell, *other)));
             let hints = pairs
                 .filter(|(cell, other)| meets([cell.low, cell.high], [other.low, other.high]))
-                .filter(|(cell, other)| !share_a_corner(cell, other, SAME * size) && cut(cell, other));
-            let mut found = hints
-                .take(HINTS)
-                .filter_map(|(cell, other)| meeting([&patches[a], &patches[b]], a == b, cell, other, size));
+                .filter(|(cell, other)| !are_neighbours(cell, other, a == b, SAME * size) && cut(cell, other));
+            let both = Both { patches: [&patches[a], &patches[b]], smooth: [smooth[a], smooth[b]], is_one: a == b };
+            let is_one_piece = pieces[a] == pieces[b];
+            let mut found = hints.take(HINTS).filter_map(|(cell, other)| both.meeting(cell, other, is_one_piece, size));
             found.next().map(|at| Crossing { patches: [a, b], at })
         };
         beyond.filter_map(crossing).collect()
@@ -234,8 +248,14 @@ fn find_crossings(patches: &[NurbsPatch], facets: &Facets, size: f64) -> Vec<Cro
     parallel::map(&facets.patches, of_patch).into_iter().flatten().collect()
 }
 
-fn share_a_corner(a: &Cell, b: &Cell, tolerance: f64) -> bool {
-    a.corners.iter().any(|corner| b.corners.iter().any(|other| corner.distance(*other) <= tolerance))
+/// Whether they share a corner, of two patches one on both borders: inside, corners that coincide may lie on a cut.
+fn are_neighbours(a: &Cell, b: &Cell, is_one: bool, tolerance: f64) -> bool {
+    let corners = |cell: &Cell| {
+        let all = cell.corners.into_iter().zip(cell.on_border);
+        all.filter(move |(_, on_border)| is_one || *on_border).map(|(corner, _)| corner).collect::<Vec<_>>()
+    };
+    let others = corners(b);
+    corners(a).iter().any(|corner| others.iter().any(|other| corner.distance(*other) <= tolerance))
 }
 
 /// Whether any of their triangles cut each other.
@@ -247,44 +267,62 @@ fn cut(a: &Cell, b: &Cell) -> bool {
     a.iter().any(|first| b.iter().any(|second| pierces(*first, *second) || pierces(*second, *first)))
 }
 
-/// Whether a segment goes through a triangle; one that lies in its plane does not.
+/// Whether a segment goes through a triangle. The plane counts as its upper side, so that of the segments of a surface
+/// whose corners lie on it one goes through.
 fn pierced([a, b, c]: [DVec3; 3], [from, to]: [DVec3; 2]) -> bool {
     let volume = |p: DVec3, q: DVec3, r: DVec3, s: DVec3| (q - p).cross(r - p).dot(s - p);
     let (above, below) = (volume(a, b, c, from), volume(a, b, c, to));
-    if above * below >= 0.0 {
+    if (above >= 0.0) == (below >= 0.0) {
         return false;
     }
     let sides = [volume(from, to, a, b), volume(from, to, b, c), volume(from, to, c, a)];
     sides.iter().all(|side| *side >= 0.0) || sides.iter().all(|side| *side <= 0.0)
 }
 
-/// A point inside both patches at which their surfaces cut each other, from the middles of two cells.
-fn meeting(patches: [&NurbsPatch; 2], is_one: bool, a: &Cell, b: &Cell, size: f64) -> Option<DVec3> {
-    let mut at = [a.parameters, b.parameters];
-    for _ in 0..30 {
-        let jets = [0, 1].map(|k| Jet::of(patches[k], at[k][0], at[k][1]));
-        let off = jets[1].point - jets[0].point;
-        let tangents = [jets[0].tangent_u, jets[0].tangent_v, -jets[1].tangent_u, -jets[1].tangent_v];
-        if off.length() <= MET * size {
-            let normals = jets.map(|jet| jet.tangent_u.cross(jet.tangent_v).normalize_or_zero());
-            let is_inside = at.iter().flatten().all(|at| (BORDER..=1.0 - BORDER).contains(at));
-            let is_apart = !is_one || (0..2).any(|axis| (at[0][axis] - at[1][axis]).abs() > APART);
-            let crosses = normals[0].cross(normals[1]).length() > TRANSVERSAL;
-            return (is_inside && is_apart && crosses).then_some(jets[0].point);
+/// Two patches, which of their sides are smooth, and whether they are one.
+struct Both<'a> {
+    patches: [&'a NurbsPatch; 2],
+    smooth: [[bool; 4]; 2],
+    is_one: bool,
+}
+
+impl Both<'_> {
+    /// A point inside both patches at which their surfaces cut each other, from the middles of two cells. At a seam of
+    /// one piece its two patches always meet.
+    fn meeting(&self, a: &Cell, b: &Cell, is_one_piece: bool, size: f64) -> Option<DVec3> {
+        let mut at = [a.parameters, b.parameters];
+        for _ in 0..30 {
+            let jets = [0, 1].map(|k| Jet::of(self.patches[k], at[k][0], at[k][1]));
+            let off = jets[1].point - jets[0].point;
+            let tangents = [jets[0].tangent_u, jets[0].tangent_v, -jets[1].tangent_u, -jets[1].tangent_v];
+            if off.length() <= MET * size {
+                let normals = jets.map(|jet| jet.tangent_u.cross(jet.tangent_v).normalize_or_zero());
+                let sides = [0, 1].map(|k| sides_of(at[k]));
+                let on_seam = sides.iter().all(|sides| sides.iter().any(|on| *on)) && is_one_piece;
+                let is_inside = (0..2).all(|k| (0..4).all(|side| !sides[k][side] || self.smooth[k][side]));
+                let is_apart = !self.is_one || (0..2).any(|axis| (at[0][axis] - at[1][axis]).abs() > APART);
+                let crosses = normals[0].cross(normals[1]).length() > TRANSVERSAL;
+                return (is_inside && !on_seam && is_apart && crosses).then_some(jets[0].point);
+            }
+            // The shortest step in all four parameters that closes the gap: δ = Jᵀ (J Jᵀ)⁻¹ off.
+            let outer = |v: DVec3| DMat3::from_cols(v * v.x, v * v.y, v * v.z);
+            let gram = tangents.iter().fold(DMat3::ZERO, |sum, tangent| sum + outer(*tangent));
+            let pull = gram.inverse() * off;
+            if !pull.is_finite() {
+                return None;
+            }
+            for (k, tangent) in tangents.iter().enumerate() {
+                let parameter = &mut at[k / 2][k % 2];
+                *parameter = (*parameter + tangent.dot(pull)).clamp(0.0, 1.0);
+            }
         }
-        // The shortest step in all four parameters that closes the gap: δ = Jᵀ (J Jᵀ)⁻¹ off.
-        let outer = |v: DVec3| DMat3::from_cols(v * v.x, v * v.y, v * v.z);
-        let gram = tangents.iter().fold(DMat3::ZERO, |sum, tangent| sum + outer(*tangent));
-        let pull = gram.inverse() * off;
-        if !pull.is_finite() {
-            return None;
-        }
-        for (k, tangent) in tangents.iter().enumerate() {
-            let parameter = &mut at[k / 2][k % 2];
-            *parameter = (*parameter + tangent.dot(pull)).clamp(0.0, 1.0);
-        }
+        None
     }
-    None
+}
+
+/// The sides that parameters lie on: `u = 0`, `u = 1`, `v = 0`, `v = 1`.
+fn sides_of([u, v]: [f64; 2]) -> [bool; 4] {
+    [u < BORDER, u > 1.0 - BORDER, v < BORDER, v > 1.0 - BORDER]
 }
 
 // Open edges, and which of them may be two sides of one gap.

@@ -4,7 +4,7 @@ use super::{Check, Origin, joined, number, pretty, rows};
 use crate::BakedCoefficients;
 use crate::body::{BakedBody, BakedCurve, BakedEdge, BakedFace, BakedSeparator, BakedSide};
 use crate::locator::PackedLists;
-use palpate::body::{EdgeFace, EdgeKind, Spoke, Vertex};
+use palpate::body::{EdgeFace, EdgeKind, Effort, Spoke, TickLimit, Vertex};
 use palpate::math::Vec3;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -28,7 +28,8 @@ pub enum SourceError {
 /// # Errors
 /// Where the library refuses the tables, or they do not parse: bugs.
 pub fn body_source(origin: &Origin<'_>, body: &BakedBody, labels: &[String]) -> Result<String, SourceError> {
-    let crc = body.to_body()?.table_crc();
+    let tables = body.to_body()?;
+    let (crc, effort) = (tables.table_crc(), tables.fitted(origin.limit).effort());
     let mut source = origin.header();
     let (faces, edges, vertices) = (body.faces.len(), body.edges.len(), body.vertices.len());
     // Writing to a string does not fail.
@@ -47,7 +48,7 @@ pub fn body_source(origin: &Origin<'_>, body: &BakedBody, labels: &[String]) -> 
         let _ = write!(source, "\n// Edge {index}.\n{}", pretty(numbers)?);
     }
     let _ = write!(source, "\n{}", pretty(lists(body, &breaks))?);
-    let _ = write!(source, "\n{}", pretty(whole(body, crc, &origin.centre()))?);
+    let _ = write!(source, "\n{}", pretty(whole(body, crc, (effort, origin.limit), &origin.centre()))?);
     Ok(source)
 }
 
@@ -218,8 +219,33 @@ fn vector(vector: Vec3) -> TokenStream {
     quote!(palpate::math::vec3(#x, #y, #z))
 }
 
-/// The locator and the body.
-fn whole(body: &BakedBody, crc: u32, centre: &TokenStream) -> TokenStream {
+/// The limit of a tick.
+fn limit_of(TickLimit { evaluations, cycles }: TickLimit) -> TokenStream {
+    let [evaluations, cycles] = [evaluations, cycles].map(Literal::u32_unsuffixed);
+    quote!(palpate::body::TickLimit { evaluations: #evaluations, cycles: #cycles })
+}
+
+/// The locator and the body, with its effort and the limit that this keeps.
+fn whole(body: &BakedBody, crc: u32, (effort, limit): (Effort, TickLimit), centre: &TokenStream) -> TokenStream {
+    let Effort { steps, candidates } = effort;
+    let [steps, candidates] = [steps, candidates].map(Literal::u8_unsuffixed);
+    // The default needs no line.
+    let at_effort = if effort == Effort::BENCH {
+        TokenStream::new()
+    } else {
+        quote!(.with_effort(palpate::body::Effort { steps: #steps, candidates: #candidates }))
+    };
+    let (within, limit) = if limit == TickLimit::BENCH {
+        (
+            " The body with another effort in each tick, as far as it fits the bench boards' period.",
+            quote!(palpate::body::TickLimit::BENCH),
+        )
+    } else {
+        (
+            " The body with another effort in each tick, as far as every tick keeps the cycles of its bake's limit.",
+            limit_of(limit),
+        )
+    };
     let locator = &body.locator;
     let nodes = locator.nodes.iter().map(|node| {
         let children = node.map(Literal::u16_unsuffixed);
@@ -269,17 +295,17 @@ fn whole(body: &BakedBody, crc: u32, centre: &TokenStream) -> TokenStream {
             is_convex: #is_convex,
             crc: Some(TABLE_CRC),
         }
-        .checked();
+        .checked()#at_effort;
         /// The type of the surface.
         #[allow(dead_code)]
         pub type Surface = palpate::body::Body<'static, palpate::field::Rigid<{ BODY.kinds() }>>;
         /// The body, with code for its own kinds of patches alone.
         #[allow(dead_code)]
         pub const SURFACE: &Surface = &BODY.of_kinds();
-        /// The body with another effort in each tick, as far as it fits the bench boards' period.
+        #[doc = #within]
         #[allow(dead_code)]
         pub const fn with_effort(effort: palpate::body::Effort) -> Surface {
-            BODY.with_effort(effort).fitted(palpate::body::TickLimit::BENCH).of_kinds()
+            BODY.with_effort(effort).fitted(#limit).of_kinds()
         }
         #centre
     }

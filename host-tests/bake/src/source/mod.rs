@@ -11,6 +11,7 @@ use crate::body::BakedBody;
 use crate::model::Model;
 pub use body::{SourceError, body_source};
 use glam::DVec3;
+use palpate::body::TickLimit;
 use palpate::field::{Modal, Mode};
 use palpate::math::Vec3;
 use palpate::patch::Orientation;
@@ -33,6 +34,8 @@ pub struct Origin<'a> {
     pub model: &'a [u8],
     /// Where the tables' frame lies in the model, metres; see [`Model::centre`].
     pub centre: DVec3,
+    /// A body's effort is the highest with which every tick on it at rest keeps this limit's cycles.
+    pub limit: TickLimit,
 }
 
 impl Origin<'_> {

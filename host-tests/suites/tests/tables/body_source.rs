@@ -1,27 +1,53 @@
 //! Bodies as Rust source and as a graph.
 
+use palpate::body::{Effort, TickLimit};
 use palpate_bake::source::{Origin, body_source};
 use palpate_bake::{BakedBody, Model, graph};
 use palpate_truth::generate::models::half_ball;
 use std::error::Error;
 
-fn baked() -> Result<(String, BakedBody), Box<dyn Error>> {
+fn baked(limit: TickLimit) -> Result<(String, BakedBody), Box<dyn Error>> {
     let text = half_ball();
     let model = Model::parse(&text, "half_ball.toml")?;
     let body = BakedBody::new(&model, "half_ball.toml")?;
-    let origin =
-        Origin { model_file: "half_ball.toml", out_file: "half_ball.rs", model: text.as_bytes(), centre: model.centre };
+    let origin = Origin {
+        model_file: "half_ball.toml",
+        out_file: "half_ball.rs",
+        model: text.as_bytes(),
+        centre: model.centre,
+        limit,
+    };
     Ok((body_source(&origin, &body, &body.labels(&model))?, body))
 }
 
 #[test]
 fn the_source_is_the_same_to_the_byte_with_the_edges_of_the_body() -> Result<(), Box<dyn Error>> {
     use palpate::body::EdgeKind::{Convex, Smooth};
-    let (source, body) = baked()?;
-    assert_eq!(baked()?.0, source);
+    let (source, body) = baked(TickLimit::BENCH)?;
+    assert_eq!(baked(TickLimit::BENCH)?.0, source);
     assert!(source.contains(&format!("pub const TABLE_CRC: u32 = {};", body.to_body()?.table_crc())), "{source}");
     // A rim that is sharp all along, and nothing else: 4 arcs; 4 meridians and 4 radii are smooth.
     assert_eq!([Convex, Smooth].map(|kind| body.topology.count(kind)), [4, 8]);
+    Ok(())
+}
+
+#[test]
+fn the_body_of_the_source_has_the_effort_that_keeps_its_limit() -> Result<(), Box<dyn Error>> {
+    let tables = baked(TickLimit::BENCH)?.1.to_body()?;
+    let tight =
+        TickLimit { cycles: tables.with_effort(Effort { steps: 2, candidates: 1 }).worst_cycles(), ..TickLimit::BENCH };
+    for limit in [TickLimit::BENCH, tight, TickLimit::NONE] {
+        let (source, _) = baked(limit)?;
+        let effort = source.split(".with_effort(palpate::body::Effort {").nth(1).map(|text| {
+            let mut numbers =
+                text.split(|letter: char| !letter.is_ascii_digit()).filter_map(|digits| digits.parse().ok());
+            Effort { steps: numbers.next().unwrap(), candidates: numbers.next().unwrap() }
+        });
+        // Without a line it is the default's, as where there is no limit.
+        let of_source = tables.with_effort(effort.unwrap_or(Effort::BENCH));
+        assert!(of_source.fits(limit), "{effort:?}: {} cycles of {}", of_source.worst_cycles(), limit.cycles);
+        assert_eq!(effort.is_none(), limit == TickLimit::NONE);
+    }
     Ok(())
 }
 

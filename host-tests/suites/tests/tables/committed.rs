@@ -1,6 +1,7 @@
 //! Tables: exact shapes, the Rust source, and the committed table against its model.
 
 use glam::DVec3;
+use palpate::body::TickLimit;
 use palpate::patch::{Curvature, Patch as _, SplinePatch};
 use palpate_bake::certificate::Certificate;
 use palpate_bake::source::{self, Origin};
@@ -38,7 +39,13 @@ fn the_compiled_table_has_the_bits_of_the_baked_patch() -> Result<(), Box<dyn Er
 fn numbers_of_the_source_read_back_as_the_same_bits() -> Result<(), Box<dyn Error>> {
     let text = model("mm", "[1, 1]", "[[0, 0, 0], [0, 1.234567e-3, -0.3]], [[33.3, 0, 0.02], [77.7, 66.6, 0.01]]");
     let baked = BakedPatch::all(&Model::parse(&text, "m.toml")?, "m.toml")?;
-    let origin = Origin { model_file: "m.toml\n#!", out_file: "m.rs", model: text.as_bytes(), centre: DVec3::ZERO };
+    let origin = Origin {
+        model_file: "m.toml\n#!",
+        out_file: "m.rs",
+        model: text.as_bytes(),
+        centre: DVec3::ZERO,
+        limit: TickLimit::BENCH,
+    };
     let source = source::rust_source(&origin, &baked)?;
     assert!(!source.contains("\n#!"), "a file name cannot leave its comment");
     let file = syn::parse_file(&source)?;
@@ -102,7 +109,13 @@ fn a_pole_has_no_bound_of_the_curvature_and_says_so() -> Result<(), Box<dyn Erro
     let shape = baked[0].to_patch()?.shape();
     assert_eq!(shape.curvature, Curvature::UNBOUNDED);
     assert!(shape.min_stretch < 1e-6 && shape.max_stretch < 0.02 && shape.max_bend.is_infinite());
-    let origin = Origin { model_file: "octant.toml", out_file: "octant.rs", model: b"", centre: DVec3::ZERO };
+    let origin = Origin {
+        model_file: "octant.toml",
+        out_file: "octant.rs",
+        model: b"",
+        centre: DVec3::ZERO,
+        limit: TickLimit::BENCH,
+    };
     let source = source::rust_source(&origin, &baked)?;
     assert!(source.contains("max: f32::INFINITY") && source.contains("min: f32::NEG_INFINITY"), "{source}");
     let survey = Survey::new(&parsed.patches[0], &baked[0], RANGE);

@@ -60,13 +60,35 @@ fn bodies_that_are_right_have_no_flaw() -> Result<(), Box<dyn Error>> {
 #[test]
 fn boxes_that_overlap_cut_each_other() -> Result<(), Box<dyn Error>> {
     for (what, low, high, pairs) in [
-        ("a corner in the other", [30.0, 10.0, 5.0], [70.0, 50.0, 55.0], 4),
+        ("a corner in the other", [30.0, 10.0, 5.0], [70.0, 50.0, 55.0], 6),
+        ("on the lines of the facets", [20.0, 15.0, 10.0], [60.0, 45.0, 30.0], 6),
+        ("off them", [20.3, 15.1, 9.7], [60.0, 45.0, 30.0], 6),
         ("one through the other", [10.0, 10.0, -10.0], [20.0, 20.0, 55.0], 8),
         ("by a hundredth of the size", [39.6, 5.0, 5.0], [70.0, 25.0, 15.0], 4),
     ] {
         let flaws = found(&beside(low, high, false))?;
         assert!(matches!(flaws[..], [Flaw::Crossing { pairs: cut, .. }] if cut == pairs), "{what}: {flaws:?}");
     }
+    Ok(())
+}
+
+/// A sheet from a line along y to another.
+fn sheet(name: &str, from: [f64; 2], to: [f64; 2]) -> String {
+    let line = |[x, z]: [f64; 2]| format!("[[{x}, 0, {z}], [{x}, 10, {z}]]");
+    format!("[[patch]]\nname = \"{name}\"\ndegree = [1, 1]\npoints = [{}, {}]\n", line(from), line(to))
+}
+
+/// Two sheets meet in a line along y: flat, another passes through that seam; as a ridge, it lies on it.
+#[test]
+fn a_cut_along_a_smooth_seam_is_found_and_a_ridge_that_touches_is_none() -> Result<(), Box<dyn Error>> {
+    let flat = sheet("left", [-10.0, 0.0], [0.0, 0.0]) + &sheet("right", [0.0, 0.0], [10.0, 0.0]);
+    for top in [7.0, 5.0] {
+        let through = found(&(flat.clone() + &sheet("wall", [0.0, -5.0], [0.0, top])))?;
+        assert!(through.iter().any(Flaw::is_wrong), "{through:?}");
+    }
+    let ridge = sheet("left", [-10.0, -10.0], [0.0, 0.0]) + &sheet("right", [0.0, 0.0], [10.0, -10.0]);
+    let touching = found(&(ridge + &sheet("lid", [-7.0, 0.0], [9.0, 0.0])))?;
+    assert!(touching.iter().all(|flaw| !flaw.is_wrong()), "{touching:?}");
     Ok(())
 }
 
