@@ -1,10 +1,11 @@
 //! A device file as the library's constants, checked when they are compiled.
 
 use super::read::OwnDevice;
+use super::table::ShippedDevice;
 use crate::devices::preset::Preset;
 use crate::devices::schema::HomingEntry;
+use palpate::device::Device;
 use palpate::device::drive::Feed;
-use palpate::device::{Device, Protection};
 use std::fmt::{Debug, Write as _};
 
 /// The file's text as Rust source: `Mechanism`, `DEVICE`, `PROTECTION`, `REFERENCE` and `WIRING`. Every number reads back
@@ -12,11 +13,16 @@ use std::fmt::{Debug, Write as _};
 pub fn source(own: &OwnDevice, from: &str) -> String {
     let mut text = format!("// Written by `palpate device` from {from}. Change that, not this.\n\n");
     match own.preset {
-        Preset::SerialArm(device) => constants(&mut text, "SerialArm", device, &own.protection),
-        Preset::LinkageArm(device) => constants(&mut text, "LinkageArm", device, &own.protection),
-        Preset::Delta(device) => constants(&mut text, "Delta", device, &own.protection),
+        Preset::SerialArm(device) => constants(&mut text, "SerialArm", device),
+        Preset::LinkageArm(device) => constants(&mut text, "LinkageArm", device),
+        Preset::Delta(device) => constants(&mut text, "Delta", device),
         Preset::FiveBar(_) | Preset::Paddle(_) => {}
     }
+    let _ = write!(
+        text,
+        "\n/// Its protection.\n#[allow(dead_code)]\npub const PROTECTION: palpate::device::Protection<3> = {};\n",
+        literal(&own.protection),
+    );
     let _ = write!(
         text,
         "\n/// The homing reference; `None` for counts that are known after each reset.\n#[allow(dead_code)]\n\
@@ -31,6 +37,20 @@ pub fn source(own: &OwnDevice, from: &str) -> String {
          pub const WIRING: palpate::commission::Wiring<3> =\n    \
          palpate::commission::Wiring::try_new({inputs:?}, {outputs:?}).expect(\"each joint needs channels of its own\");\n"
     );
+    text
+}
+
+/// The constant of a device that ships: of fewer joints than three, which have no device file.
+pub fn rust_preset(shipped: &ShippedDevice) -> String {
+    let mut text =
+        format!("// Written by `palpate device` from {}: the numbers are yours to change.\n\n", shipped.name);
+    match shipped.preset {
+        Preset::SerialArm(device) => constants(&mut text, "SerialArm", device),
+        Preset::LinkageArm(device) => constants(&mut text, "LinkageArm", device),
+        Preset::Delta(device) => constants(&mut text, "Delta", device),
+        Preset::FiveBar(device) => constants(&mut text, "FiveBar", device),
+        Preset::Paddle(device) => constants(&mut text, "Paddle", device),
+    }
     text
 }
 
@@ -67,6 +87,7 @@ fn literal(value: &impl Debug) -> String {
         "LinkageArm {",
         "FiveBar {",
         "Delta {",
+        "Paddle {",
         "LinkMass {",
         "Encoder {",
         "Motor {",
@@ -78,7 +99,7 @@ fn literal(value: &impl Debug) -> String {
     names.iter().fold(text, |text, name| text.replace(name, &format!("palpate::device::{name}")))
 }
 
-fn feeds(feeds: &[Feed; 3]) -> String {
+fn feeds(feeds: &[Feed]) -> String {
     let each = feeds.iter().map(|feed| match feed {
         Feed::Current => "palpate::device::drive::Feed::Current".to_owned(),
         Feed::Voltage(voltage) => {
@@ -88,22 +109,25 @@ fn feeds(feeds: &[Feed; 3]) -> String {
     format!("[{}]", each.collect::<Vec<_>>().join(", "))
 }
 
-fn constants<K: Debug>(text: &mut String, mechanism: &str, device: &Device<K, 3>, protection: &Protection<3>) {
+fn constants<K: Debug, const JOINTS: usize>(text: &mut String, mechanism: &str, device: &Device<K, JOINTS>) {
     let Device { kinematics, encoders, motors, dry_friction_n_m, joint_range_rad, min_margin_m_per_rad, .. } = device;
     let Device { max_joint_rate_rad_per_s, max_force_n, max_stiffness_n_per_m, max_damping_n_s_per_m, .. } = device;
+    // The weight of a planar linkage does not load its joints.
+    let holds = if mechanism == "FiveBar" { "" } else { "DEVICE.full_torques_n_m()" };
+    let check =
+        |what: &str| format!("if let Err(error) = {what} {{\n        panic!(\"{{}}\", error.message());\n    }}");
+    let (numbers, parts) = (check("DEVICE.check()"), check(&format!("DEVICE.kinematics.check({holds})")));
     let _ = write!(
         text,
         "pub use palpate::device::{mechanism} as Mechanism;\n\n\
-         /// The device.\npub const DEVICE: palpate::device::Device<Mechanism, 3> = palpate::device::Device {{\n    \
+         /// The device.\npub const DEVICE: palpate::device::Device<Mechanism, {JOINTS}> = palpate::device::Device {{\n    \
          kinematics: {},\n    encoders: {},\n    motors: {},\n    feeds: {},\n    dry_friction_n_m: {dry_friction_n_m:?},\n    \
          joint_range_rad: {joint_range_rad:?},\n    min_margin_m_per_rad: {min_margin_m_per_rad:?},\n    max_joint_rate_rad_per_s: {max_joint_rate_rad_per_s:?},\n    \
          max_force_n: {max_force_n:?},\n    max_stiffness_n_per_m: {max_stiffness_n_per_m:?},\n    max_damping_n_s_per_m: {max_damping_n_s_per_m:?},\n}};\n\
-         const _: () = assert!(\n    DEVICE.check().is_ok() && DEVICE.kinematics.check(DEVICE.full_torques_n_m()).is_ok(),\n    \"no device has these numbers\"\n);\n\n\
-         /// Its protection.\n#[allow(dead_code)]\npub const PROTECTION: palpate::device::Protection<3> = {};\n",
+         const _: () = {{\n    {numbers}\n    {parts}\n}};\n",
         literal(kinematics),
         literal(encoders),
         literal(motors),
         feeds(&device.feeds),
-        literal(protection),
     );
 }

@@ -18,7 +18,7 @@ mod table;
 #[cfg(feature = "std")]
 pub use c_header::{c_header, c_preset};
 #[cfg(feature = "std")]
-pub use constant::{settings_source, source};
+pub use constant::{rust_preset, settings_source, source};
 pub use preset::Preset;
 pub use read::{DeviceFileError, OwnDevice};
 pub use schema::{

@@ -1,8 +1,8 @@
 //! Simulated plant of the user's own device.
 //!
 //! Geometry, transmission and friction come from the file, and where it states the inertia of a joint that in the middle
-//! of the workspace. The rest is assumed: thin rods of 100 g, a turntable of 2e-3 kg·m², rotors of 10 g·cm². The load of
-//! gravity on the joints is the file's, independent of the assumed masses.
+//! of the workspace. The rest is assumed: thin rods of 100 g, a turntable of 2e-3 kg·m², rotors of 10 g·cm²,
+//! windings of 1 mH. The load of gravity on the joints is the file's, independent of the assumed masses.
 
 use super::read::OwnDevice;
 use super::schema::{DeviceFile, JointEntry, MassEntry, MechanismEntry};
@@ -24,6 +24,8 @@ const ROTOR: f64 = 1e-6;
 const BALANCE: [f64; 2] = [1e-3, 5e-4];
 /// The part of a stated inertia that assumed masses may make up; the rotor has the rest.
 const OF_LINKS: f64 = 0.9;
+/// Assumed of a winding on a bridge, H.
+const INDUCTANCE: f64 = 1e-3;
 /// Rotors are positive, kg·m².
 const MIN_ROTOR: f64 = 1e-9;
 
@@ -81,12 +83,18 @@ fn state_inertia(file: &DeviceFile, settings: &mut PlantSettings, angles: Vector
     }
 }
 
-/// The assumptions about inertia, in a line.
+/// The assumptions, in a line.
 pub(super) fn remark(own: &OwnDevice) -> String {
+    let mut bridges = own.file.joint.iter().filter_map(|joint| joint.motor.bridge);
+    let winding = if bridges.any(|bridge| bridge.inductance.is_none()) {
+        "; inductance of 1 mH assumed where `bridge` states none"
+    } else {
+        ""
+    };
     if own.file.joint.iter().any(|joint| joint.inertia.is_none()) {
-        return "what of its inertia the file does not state is assumed".to_owned();
+        return format!("inertia that the file does not state is assumed{winding}");
     }
-    let mut said = "inertia as stated; its split over links assumed".to_owned();
+    let mut said = format!("inertia as stated; its split over links assumed{winding}");
     let angles = own.plant.mechanism(0.0).angles([0.0; 3]).unwrap_or_default();
     for (joint, found) in own.file.joint.iter().zip(inertias(&own.plant, angles)) {
         let stated = joint.inertia.unwrap_or(found);
@@ -115,7 +123,11 @@ fn joint(entry: &JointEntry) -> JointSettings {
         encoder_direction: direction(encoder.ratio),
         angle_at_zero: encoder.zero,
         amplifier: motor.bridge.map_or(Amplifier::Current, |bridge| {
-            Amplifier::Voltage(Winding { supply: bridge.supply, resistance: bridge.resistance, inductance: 1e-3 })
+            Amplifier::Voltage(Winding {
+                supply: bridge.supply,
+                resistance: bridge.resistance,
+                inductance: bridge.inductance.unwrap_or(INDUCTANCE),
+            })
         }),
         motor_direction: direction(motor.ratio),
         torque_constant: motor.torque_constant,
@@ -233,6 +245,6 @@ mod tests {
         assert!(said.contains("joint c: 0.0001 kg·m² stated, "), "{said}");
         file.joint[2].inertia = None;
         let said = remark(&OwnDevice::new(file, "a").expect("a device"));
-        assert_eq!(said, "what of its inertia the file does not state is assumed");
+        assert_eq!(said, "inertia that the file does not state is assumed");
     }
 }

@@ -1,6 +1,6 @@
 //! The servo's description of a device, for any mechanism.
 
-use palpate::device::{Delta, Device, FiveBar, Kinematics, LinkageArm, Paddle, SerialArm};
+use palpate::device::{Delta, Device, FiveBar, Kinematics, LinkageArm, Paddle, PolarityCheck, SerialArm};
 use palpate::servo::recommended::{self, Recommended};
 
 /// The servo's description of a device, by its mechanism. Only a `match` on it distinguishes mechanisms; the loop
@@ -75,6 +75,18 @@ impl Preset {
             Self::Delta(device) => of(device, angles),
             Self::FiveBar(device) => of(device, angles),
             Self::Paddle(device) => of(device, angles),
+        }
+    }
+
+    /// The maximum force of a loop that the polarity check of each joint needs at these angles, N
+    /// ([`PolarityCheck::min_force_n`]); `None` with less than three joints.
+    pub fn min_force_n(self, check: &PolarityCheck<3>, rate: f32, angles: [f64; 3]) -> Option<[f32; 3]> {
+        let angles = angles.map(|angle| angle as f32);
+        match self {
+            Self::SerialArm(device) => check.min_force_n(device, rate, angles),
+            Self::LinkageArm(device) => check.min_force_n(device, rate, angles),
+            Self::Delta(device) => check.min_force_n(device, rate, angles),
+            Self::FiveBar(_) | Self::Paddle(_) => None,
         }
     }
 

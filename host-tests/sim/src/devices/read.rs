@@ -2,7 +2,7 @@
 
 #[cfg(feature = "std")]
 use super::plant;
-use super::schema::{DeviceFile, JointEntry, MechanismEntry};
+use super::schema::{BridgeEntry, DeviceFile, JointEntry, MechanismEntry};
 use crate::devices::preset::Preset;
 #[cfg(feature = "std")]
 use crate::plant::PlantSettings;
@@ -41,6 +41,13 @@ pub enum DeviceFileError {
         /// Why.
         cause: std::io::Error,
     },
+    /// Its name is that of another kind of file.
+    #[error(
+        "{0}: a device file ends in .toml, and states lengths, masses, encoders and motors of an arm; URDF, SDF and MJCF are \
+         not read; `palpate device woodenhaptics-2016 --out my.toml` writes one to start from \
+         (docs/reference/device-format.md)"
+    )]
+    Kind(String),
     /// It is not a device file: an entry is missing, unknown or of another kind.
     #[error("{file}: {reason}")]
     Schema {
@@ -83,6 +90,9 @@ impl OwnDevice {
     #[cfg(feature = "std")]
     pub fn read(path: &Path) -> Result<Self, DeviceFileError> {
         let file = path.display().to_string();
+        if path.extension().is_some_and(|extension| extension != "toml") {
+            return Err(DeviceFileError::Kind(file));
+        }
         let text = fs::read_to_string(path).map_err(|cause| DeviceFileError::Read { file: file.clone(), cause })?;
         Self::parse(&text, &file)
     }
@@ -237,6 +247,34 @@ fn check_units(file: &DeviceFile, refuse: &impl Fn(&str, &str) -> DeviceFileErro
     Ok(())
 }
 
+/// Refuses a bridge by its first implausible number, units before the current that it drives.
+fn check_bridge(bridge: &BridgeEntry, current_at_full: f64) -> Result<(), String> {
+    let BridgeEntry { supply, resistance, inductance, back_emf_share } = *bridge;
+    for (name, number, [least, most], unit) in [
+        ("supply", supply, [1.0, 100.0], "V"),
+        ("resistance", resistance, [0.01, 1_000.0], "ohms"),
+        ("back_emf_share", back_emf_share, [0.0, 1.0], "shares of the whole"),
+    ] {
+        if !(least..=most).contains(&number) {
+            return Err(format!("{name} = {number} is no haptic device's: it is in {unit}, {least} to {most}"));
+        }
+    }
+    // Of coreless to iron motors 0.01 to 2 ms.
+    let lag_ms = inductance.map_or(0.0, |inductance| 1e3 * inductance / resistance);
+    if !(0.0..=5.0).contains(&lag_ms) {
+        return Err(format!(
+            "inductance over resistance is {lag_ms:.3} ms, and must be 0 to 5: inductance is in H (0.12 mH are 0.00012)"
+        ));
+    }
+    let most = supply / resistance;
+    if most < current_at_full {
+        return Err(format!(
+            "its supply drives {most:.2} A at most through its resistance: lower current_at_full to that"
+        ));
+    }
+    Ok(())
+}
+
 /// Checks beyond the library's own.
 fn check(file: &DeviceFile, refuse: impl Fn(&str, &str) -> DeviceFileError) -> Result<(), DeviceFileError> {
     if file.name.is_empty() || !file.name.chars().all(|letter| letter.is_ascii_alphanumeric() || "-_.".contains(letter))
@@ -274,25 +312,19 @@ fn check(file: &DeviceFile, refuse: impl Fn(&str, &str) -> DeviceFileError) -> R
                 return Err(refuse(&entry(name), &format!("{number} must be positive and finite")));
             }
         }
+        if joint.motor.max_rate > 500.0 {
+            return Err(refuse(&entry("motor.max_rate"), "must be at most 500 rad/s: 3000 rpm are 314 rad/s"));
+        }
         if !(joint.motor.time_constant >= 0.1 && joint.motor.time_constant <= 600.0) {
             return Err(refuse(&entry("motor.time_constant"), "must be between 0.1 and 600 s"));
         }
-        if let Some(bridge) = joint.motor.bridge
-            && !(positive(bridge.supply) && positive(bridge.resistance) && (0.0..=1.0).contains(&bridge.back_emf_share))
-        {
-            return Err(refuse(&entry("motor.bridge"), "needs a supply, a resistance, and a share from 0 to 1"));
-        }
-        if let Some(bridge) = joint.motor.bridge
-            && bridge.supply / bridge.resistance < joint.motor.current_at_full
-        {
-            let most = bridge.supply / bridge.resistance;
-            let reason =
-                format!("its supply drives {most:.2} A at most through its resistance: lower current_at_full to that");
-            return Err(refuse(&entry("motor.bridge"), &reason));
+        if let Some(bridge) = joint.motor.bridge {
+            check_bridge(&bridge, joint.motor.current_at_full)
+                .map_err(|reason| refuse(&entry("motor.bridge"), &reason))?;
         }
     }
-    if !positive(file.limits.max_probe_speed) {
-        return Err(refuse("limits.max_probe_speed", "must be positive and finite"));
+    if !(file.limits.max_probe_speed > 0.0 && file.limits.max_probe_speed <= 10.0) {
+        return Err(refuse("limits.max_probe_speed", "must be positive and at most 10 m/s: 1500 mm/s are 1.5"));
     }
     check_units(file, &refuse)
 }

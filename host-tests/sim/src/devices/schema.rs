@@ -227,6 +227,9 @@ pub struct BridgeEntry {
     pub supply: f64,
     /// Of winding, brushes and bridge, ohms.
     pub resistance: f64,
+    /// Of the winding, H; only the simulated plant has it. By default 1 mH.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub inductance: Option<f64>,
     /// How much of the back-EMF is made up for, 0 to 1.
     pub back_emf_share: f64,
 }

@@ -5,7 +5,7 @@ use super::schema::{
     MechanismEntry, MotorEntry,
 };
 use crate::devices::preset::Preset;
-use crate::plant::{Direction, PlantSettings};
+use crate::plant::{Amplifier, Direction, PlantSettings};
 use palpate::device::drive::Feed;
 use palpate::device::{Device, Protection, presets};
 
@@ -105,6 +105,10 @@ fn rest<K>(name: &str, settings: &PlantSettings, device: &Device<K, 3>) -> (Limi
                 Feed::Voltage(feed) => Some(BridgeEntry {
                     supply: decimal(feed.supply_v),
                     resistance: decimal(feed.resistance_ohm),
+                    inductance: match plant.amplifier {
+                        Amplifier::Voltage(winding) => Some(winding.inductance),
+                        Amplifier::Current | Amplifier::CurrentOn(_) => None,
+                    },
                     back_emf_share: decimal(feed.back_emf_fraction),
                 }),
             },

@@ -174,7 +174,7 @@ mod tests {
     /// A force along z by tick, touching where it is not zero.
     fn recording(forces: &[f64]) -> Recording {
         let tick = |force: &f64| Tick { force: [0.0, 0.0, *force], is_touching: *force > 0.0, ..Tick::default() };
-        Recording { rate: 1_000.0, ticks: forces.iter().map(tick).collect(), device: None, model: None }
+        Recording { rate: 1_000.0, ticks: forces.iter().map(tick).collect(), ..Recording::default() }
     }
 
     #[test]
@@ -212,7 +212,7 @@ mod tests {
             let turned = std::f64::consts::FRAC_PI_2 * n as f64 / 100.0;
             Tick { probe: [1e-5 * n as f64, 0.0, 0.0], force: [turned.sin(), 0.0, turned.cos()], ..Tick::default() }
         };
-        let recording = Recording { rate: 1_000.0, ticks: (0..=100).map(tick).collect(), device: None, model: None };
+        let recording = Recording { rate: 1_000.0, ticks: (0..=100).map(tick).collect(), ..Recording::default() };
         let turn = recording.turn([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]], [0.0, 1.0]);
         // From a tenth to nine tenths, a step more or less at either end.
         assert!(turn.is_some_and(|way| (way - 0.8e-3).abs() < 2.5e-5), "{turn:?}");

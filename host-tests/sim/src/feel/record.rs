@@ -36,6 +36,8 @@ pub struct Recording {
     pub device: Option<String>,
     /// The same of the model or scene.
     pub model: Option<String>,
+    /// Contacts released, [`palpate::servo::ServoState::contacts_lost`]; 0 of one that was read from a file.
+    pub contacts_lost: u32,
 }
 
 /// Why a run gives no recording.
@@ -92,5 +94,5 @@ pub fn record<S: Surface, K: Kinematics<JOINTS>, const JOINTS: usize>(
         }
         plant.advance(duties);
     }
-    Ok(Recording { rate, ticks, device: None, model: None })
+    Ok(Recording { rate, ticks, device: None, model: None, contacts_lost: state.contacts_lost() })
 }

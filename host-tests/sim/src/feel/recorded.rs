@@ -76,8 +76,9 @@ pub fn read(path: &Path) -> anyhow::Result<Recording> {
         {
             ensure!(
                 now - before == 1.0,
-                "{}: row {}: tick {now} comes after {before}, and steps and ripple need every tick: `palpate sim --csv` \
-                 records all; a device does with a `Recorder` of 1, where its line is fast enough",
+                "{}: row {}: tick {now} comes after {before}, and steps and ripple need every tick: record with `palpate sim \
+                 --csv`, or set `ticks_per_record: 1` in boards/pico2/src/set_up.rs or boards/teensy41/src/set_up.rs, \
+                 flash the board and record with `palpate monitor --csv` (the Nucleo's line is too slow)",
                 path.display(),
                 row + 2
             );
@@ -186,7 +187,15 @@ mod tests {
         let spoilt = format!("{HEADER}\n0,0,0,0,0,1,0,0,0\n1,0,0,oops,0,1,0,0,0\n");
         assert!(refused(&spoilt).contains("row 3: \"oops\" is not a number"));
         let sparse = format!("tick,{HEADER}\n7,0,0,0,0,0,1,0,0,0\n8,1,0,0,0,0,1,0,0,0\n48,2,0,0,0,0,1,0,0,0\n");
-        assert!(refused(&sparse).contains("row 4: tick 48 comes after 8"));
+        let refusal = refused(&sparse);
+        assert!(refusal.contains("row 4: tick 48 comes after 8"), "{refusal}");
+        // Where the remedy is, on the boards whose line carries it.
+        for file in refusal.split_whitespace().filter(|word| word.ends_with("/set_up.rs")) {
+            let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(file);
+            let source = std::fs::read_to_string(path).expect(file);
+            assert!(source.contains("    ticks_per_record: "), "{file}");
+        }
+        assert_eq!(refusal.matches("/set_up.rs").count(), 2, "{refusal}");
     }
 
     #[test]

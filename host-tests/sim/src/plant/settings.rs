@@ -132,16 +132,19 @@ pub struct PlantSettings {
 }
 
 impl PlantSettings {
-    /// The numbers of an arm without counterweights or of a delta for a plant of another make, as JSON: SI units, rotors
-    /// at the joint. `None` for another mechanism.
+    /// The numbers of a mechanism of three joints for a plant of another make, as JSON: SI units, rotors at the joint with
+    /// all that turns with it alone. `None` with fewer joints.
     pub fn numbers(&self) -> Option<String> {
         let joints = &self.joints;
         let mut rotors = joints.map(|joint| joint.rotor_inertia * joint.ratio * joint.ratio);
         let link = |link: Link| [link.length, link.mass, link.centre, link.inertia];
         let mut rows: Vec<(&str, String)> = match self.mechanism {
-            MechanismSettings::Arm(arm) if arm.balance == [0.0; 2] => {
+            MechanismSettings::Arm(arm) => {
                 rotors[0] += arm.turntable_inertia;
+                rotors[1] += arm.balance_inertia[0];
+                rotors[2] += arm.balance_inertia[1];
                 vec![
+                    ("balance", format!("{:?}", arm.balance)),
                     ("first", format!("{:?}", link(arm.first_link))),
                     ("second", format!("{:?}", link(arm.second_link))),
                     ("base_height", format!("{:?}", arm.base_height)),
@@ -160,11 +163,26 @@ impl PlantSettings {
                     ("plate", format!("{:?}", delta.plate_mass)),
                 ]
             }
-            _ => return None,
+            MechanismSettings::LinkageArm(arm) => {
+                rotors[0] += arm.turntable_inertia;
+                let FiveBarSettings { second_pivot, cranks, rods, tool, side, links, .. } = arm.linkage;
+                vec![
+                    ("pivots", format!("{:?}", [arm.pivot_reach, second_pivot])),
+                    ("lengths", format!("{:?}", [cranks[0], cranks[1], rods[0], rods[1], tool])),
+                    ("side", format!("{side:?}")),
+                    ("links", format!("{:?}", links.map(|link| [link.mass, link.along, link.across, link.inertia]))),
+                    ("centre", format!("{:?}", arm.workspace_centre)),
+                ]
+            }
+            MechanismSettings::FiveBar(_) | MechanismSettings::Paddle(_) => return None,
         };
+        let time_constants = joints.map(|joint| match joint.amplifier {
+            Amplifier::Voltage(winding) => winding.inductance / winding.resistance,
+            Amplifier::Current | Amplifier::CurrentOn(_) => self.current_time_constant,
+        });
         rows.extend([
             ("gravity", format!("{:?}", self.gravity)),
-            ("time_constant", format!("{:?}", self.current_time_constant)),
+            ("time_constant", format!("{time_constants:?}")),
             ("rotors", format!("{rotors:?}")),
             ("viscous", format!("{:?}", joints.map(|joint| joint.viscous_friction))),
             ("coulomb", format!("{:?}", joints.map(|joint| joint.coulomb_friction))),

@@ -1,6 +1,7 @@
 //! A board in this program: the world at its pins, both ends of its serial port, and the boards' loop between them.
 
-use palpate::device::{Counts, Duty, ElectricalAngle};
+use palpate::device::drive::Field;
+use palpate::device::{Counts, Duty};
 use palpate::servo::{Heartbeat, ResetReason};
 use palpate::wire::Record;
 use palpate::wire::telemetry::Queue;
@@ -28,14 +29,14 @@ pub trait AtPins<const JOINTS: usize> {
     }
 
     /// One servo period under these duties, with motor fields at these angles; without duties the stages are off.
-    fn advance(&mut self, fields: Option<[ElectricalAngle; JOINTS]>, duties: Option<[Duty; JOINTS]>);
+    fn advance(&mut self, fields: Option<[Field; JOINTS]>, duties: Option<[Duty; JOINTS]>);
 }
 
 /// A board whose pins are a simulated world's.
 pub struct Pins<W, const JOINTS: usize> {
     /// The world.
     pub world: W,
-    fields: Option<[ElectricalAngle; JOINTS]>,
+    fields: Option<[Field; JOINTS]>,
     /// Duties of the stages; `None` while they are off.
     pub duties: Option<[Duty; JOINTS]>,
     /// Its counter, which a tick takes no time of.
@@ -49,7 +50,7 @@ impl<W, const JOINTS: usize> Pins<W, JOINTS> {
 }
 
 impl<W: AtPins<JOINTS>, const JOINTS: usize> Board<JOINTS> for Pins<W, JOINTS> {
-    fn aim(&mut self, fields: [ElectricalAngle; JOINTS]) {
+    fn aim(&mut self, fields: [Field; JOINTS]) {
         self.fields = Some(fields);
     }
 

@@ -6,8 +6,9 @@ use crate::simulated::hand::Hand;
 use anyhow::Context as _;
 use palpate::body::{Aligned, Body, BodyBuffer, Edge, Face, FileHead};
 use palpate::commission::Wiring;
+use palpate::device::drive::Field;
 use palpate::device::presets::WOODEN_HAPTICS_2016;
-use palpate::device::{Counts, Duty, ElectricalAngle, SerialArm};
+use palpate::device::{Counts, Duty, SerialArm};
 use palpate::math::{Vec3, vec3};
 use palpate::scene::{Limits, Material, Motion, Part, Scene, Slot};
 use palpate::servo::{Config, ResetReason, Safety, Servo, Settings, Unguarded};
@@ -70,7 +71,7 @@ impl AtPins<3> for AtArm {
         Ok(self.plant.counts().map(Counts))
     }
 
-    fn advance(&mut self, _: Option<[ElectricalAngle; 3]>, duties: Option<[Duty; 3]>) {
+    fn advance(&mut self, _: Option<[Field; 3]>, duties: Option<[Duty; 3]>) {
         self.plant.advance(duties.unwrap_or_default().map(|duty| duty.0));
     }
 }

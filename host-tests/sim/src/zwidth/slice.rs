@@ -131,7 +131,7 @@ fn force_source(joint: &JointSettings, feed: &Feed, current_loop: f64) -> (f64, 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::devices::{DEVICES, named};
+    use crate::devices::{BridgeEntry, DEVICES, OwnDevice, named, own_device};
     use crate::zwidth::{Loop, max_stiffness};
     use palpate::device::VelocityMethod;
 
@@ -211,6 +211,31 @@ mod tests {
         ] {
             // The preset's share is an f32.
             assert!((found / expected - 1.0).abs() < 1e-6, "{found} {expected}");
+        }
+    }
+
+    #[test]
+    fn a_bridge_of_a_file_delays_by_the_inductance_that_it_states() {
+        let mut file = named("woodenhaptics-2016").and_then(|device| device.file()).unwrap();
+        for (stated, inductance) in [(None, 1e-3), (Some(1.2e-4), 1.2e-4)] {
+            for joint in &mut file.joint {
+                joint.motor.bridge =
+                    Some(BridgeEntry { supply: 24.0, resistance: 0.7, inductance: stated, back_emf_share: 0.8 });
+            }
+            let own = OwnDevice::new(file.clone(), "arm.toml").unwrap();
+            let slice = Slice::of(own_device(&own, ""));
+            let servo = Loop {
+                rate: 4_000.0,
+                delay_periods: 1.0,
+                velocity: VelocityMethod::LowPass,
+                corner: 200.0,
+                ease: None,
+            };
+            // b/(T/2 + d + L/R).
+            let bound = slice.viscous / (1.25e-4 + 2.5e-4 + inductance / 0.7);
+            let found = servo.passive_stiffness(&slice, 0.0);
+            println!("{inductance} H: passive to {found:.0} N/m");
+            assert!((found / bound - 1.0).abs() < 1e-6, "{found} {bound}");
         }
     }
 

@@ -3,7 +3,7 @@
 use embedded_hal_mock::eh1::MockError;
 use embedded_hal_mock::eh1::digital::{Mock as Pin, State, Transaction as PinStep};
 use embedded_hal_mock::eh1::pwm::{Mock as Width, Transaction as WidthStep};
-use palpate::device::drive::{Drive, HBridge, SetPointDrive, SetPointRange};
+use palpate::device::drive::{Drive, Field, HBridge, SetPointDrive, SetPointRange};
 use palpate::device::{Counts, Duty, ElectricalAngle};
 use palpate_bench::sensors::{BadFrame, Counters, Readings};
 use palpate_bench::{
@@ -216,8 +216,8 @@ struct Aimed<'a>(&'a core::cell::Cell<u16>);
 impl Drive for Aimed<'_> {
     type Error = core::convert::Infallible;
 
-    fn aim(&mut self, ElectricalAngle(angle): ElectricalAngle) {
-        self.0.set(angle);
+    fn aim(&mut self, field: Field) {
+        self.0.set(field.angle.0);
     }
 
     fn apply(&mut self, _: Duty) -> Result<(), Self::Error> {
@@ -235,7 +235,7 @@ fn fields_reach_drives_of_three_types_behind_one_enable_line() {
     let [a, b, c] = &aimed;
     let mut enable = Pin::new(&[]);
     let mut all = Switched::new((Aimed(a), Aimed(b), Aimed(c)), enable.clone());
-    all.aim([1, 2, 3].map(ElectricalAngle));
+    all.aim([1, 2, 3].map(|angle| Field::at_rest(ElectricalAngle(angle))));
     assert_eq!(aimed.map(|angle| angle.get()), [1, 2, 3]);
     enable.done();
 }

@@ -1,7 +1,8 @@
 //! Motors and encoders on other channels than their joints': the loop reads and drives the right joint.
 
 use palpate::commission::Wiring;
-use palpate::device::{Counts, Duty, ElectricalAngle};
+use palpate::device::drive::Field;
+use palpate::device::{Counts, Duty};
 use palpate::servo::{Config, Phase, ResetReason, Servo};
 use palpate_bench::Panel;
 use palpate_bench::sensors::BadFrame;
@@ -51,7 +52,7 @@ impl AtPins<3> for Cabled {
         Ok(counts)
     }
 
-    fn advance(&mut self, _: Option<[ElectricalAngle; 3]>, duties: Option<[Duty; 3]>) {
+    fn advance(&mut self, _: Option<[Field; 3]>, duties: Option<[Duty; 3]>) {
         self.duties = duties.unwrap_or_default().map(|duty| duty.0);
         self.plant.advance(self.outputs.map(|output| self.duties[output]));
     }
