@@ -8,7 +8,7 @@
  * origin lies in the model where palpate_file_info::centre says.
  *
  * **Handles** (::palpate_body, ::palpate_soft_body, ::palpate_tracker, ::palpate_pair, ::palpate_servo,
- * ::palpate_receiver) lie in memory of the caller's, static or on a stack, and are made by the function that takes
+ * ::palpate_tool_servo, ::palpate_receiver) lie in memory of the caller's, static or on a stack, and are made by the function that takes
  * their size. What is in them is nobody's business. A handle stays where it was made: a copy elsewhere is refused with
  * #PALPATE_NOT_READY, as is memory that was never made a handle. A body that is loaded anew ends what stands on it.
  *
@@ -22,7 +22,7 @@
  *
  * **Interrupts**: a loop whose tick runs in an interrupt has every other call on it with that interrupt masked, or from
  * within it: palpate_servo_note(), palpate_servo_supply(), palpate_servo_index(), palpate_servo_set_feel(),
- * palpate_servo_state() and the like.
+ * palpate_servo_orient(), palpate_servo_state() and the like.
  *
  * @code{.c}
  * static palpate_body body;
@@ -61,6 +61,7 @@ typedef uintptr_t palpate_word;
 #define PALPATE_TRACKER_WORDS 76
 #define PALPATE_PAIR_WORDS 56
 #define PALPATE_SERVO_WORDS 500
+#define PALPATE_TOOL_WORDS 2460
 #define PALPATE_RECEIVER_WORDS 38
 #else
 #define PALPATE_FACE_WORDS 45
@@ -71,6 +72,7 @@ typedef uintptr_t palpate_word;
 #define PALPATE_TRACKER_WORDS 40
 #define PALPATE_PAIR_WORDS 32
 #define PALPATE_SERVO_WORDS 260
+#define PALPATE_TOOL_WORDS 1240
 #define PALPATE_RECEIVER_WORDS 22
 #endif
 
@@ -87,6 +89,8 @@ typedef struct palpate_tracker { palpate_word reserved[PALPATE_TRACKER_WORDS]; }
 typedef struct palpate_pair { palpate_word reserved[PALPATE_PAIR_WORDS]; } palpate_pair;
 /** A servo loop: device, body, settings and state. */
 typedef struct palpate_servo { palpate_word reserved[PALPATE_SERVO_WORDS]; } palpate_servo;
+/** A servo loop with a tool that has a shape: every function takes its member servo. */
+typedef struct palpate_tool_servo { palpate_servo servo; palpate_word reserved[PALPATE_TOOL_WORDS]; } palpate_tool_servo;
 /** Bytes of a frame on their way in. */
 typedef struct palpate_receiver { palpate_word reserved[PALPATE_RECEIVER_WORDS]; } palpate_receiver;
 /** @} */
@@ -126,7 +130,7 @@ enum {
     PALPATE_DEVICE_CENTRE = 38,            /**< The workspace's centre out of the mechanism's reach. */
     PALPATE_DEVICE_MASS = 39,              /**< A mass of the mechanism negative or not finite. */
     PALPATE_DEVICE_WEIGHT = 40,            /**< Links heavier than a motor holds, under protection for long. */
-    PALPATE_SETTINGS_RATE = 48,            /**< Rate not between 1 Hz and 100 kHz. */
+    PALPATE_SETTINGS_RATE = 48,            /**< Rate not between 20 Hz and 100 kHz. */
     PALPATE_SETTINGS_STIFFNESS = 49,       /**< Stiffness not between 0 and the device's greatest. */
     PALPATE_SETTINGS_DAMPING = 50,         /**< Damping not between 0 and the device's greatest. */
     PALPATE_SETTINGS_MAX_FORCE = 51,       /**< Greatest force negative or not finite. */
@@ -143,8 +147,8 @@ enum {
     PALPATE_SETTINGS_EASE = 62,            /**< Easing's onset negative or not finite, or its change not positive. */
     PALPATE_PROTECTION_CONTINUOUS = 64,    /**< A motor's continuous torque not positive and finite. */
     PALPATE_PROTECTION_TIME_CONSTANT = 65, /**< A time constant not between 100 and 2,400,000 ticks, or above ten minutes. */
-    PALPATE_PROTECTION_SPEED = 66,         /**< A greatest speed not positive. */
-    PALPATE_PROTECTION_SUPPLY = 67,        /**< The least supply not below the most. */
+    PALPATE_PROTECTION_SPEED = 66,         /**< A maximum speed not positive, above 10 m/s or 500 rad/s. */
+    PALPATE_PROTECTION_SUPPLY = 67,        /**< The minimum supply not below the maximum. */
     PALPATE_PROTECTION_INERTIA = 68,       /**< An inertia not positive and finite. */
     PALPATE_HOMING_ANGLE = 72,             /**< A reference angle not finite. */
     PALPATE_HOMING_STILL = 73,             /**< No tick to hold still for. */
@@ -171,7 +175,21 @@ enum {
     PALPATE_KNOB_RELEASE_RATE = 100, /**< Release rate not positive and finite. */
     PALPATE_KNOB_FAR = 101,          /**< The part would take the dial further than an eighth of a turn. */
     PALPATE_KNOB_UNDAMPED = 102,     /**< All parts: too stiff for their damping, the dial would ring. */
-    PALPATE_KNOB_MARGIN = 103        /**< palpate_device::min_margin: above 0.8 of the dial's radius. */
+    PALPATE_KNOB_MARGIN = 103,       /**< palpate_device::min_margin: above 0.8 of the dial's radius. */
+    PALPATE_TOOL_NONE = 104,         /**< The loop has no tool with a shape. */
+    PALPATE_TOOL_MEMORY = 105,       /**< A loop with a tool needs a ::palpate_tool_servo: its member servo, the size of all of it. */
+    PALPATE_TOOL_HALF = 106,         /**< A half length not 0 to 1e6 m. */
+    PALPATE_TOOL_RADIUS = 107,       /**< The tool's radius not 0 to 1e6 m. */
+    PALPATE_TOOL_THIN = 108,         /**< The tool's radius 0, or below a hundredth of its largest half length. */
+    PALPATE_TOOL_FRICTION = 109,     /**< The tool's friction not 0 to 2. */
+    PALPATE_TOOL_STIFFNESS = 110,    /**< Settings with a tool: stiffness or rate not positive and finite. */
+    PALPATE_TOOL_POINT_FRICTION = 111, /**< Settings with a tool: friction_static or friction_dynamic not 0. */
+    PALPATE_TOOL_TEXTURE = 112,      /**< Settings with a tool: texture_share not 0. */
+    PALPATE_TOOL_COUPLING = 113,     /**< Settings with a tool: coupling_mass not 0. */
+    PALPATE_TOOL_ROTATION = 114,     /**< An orientation that is no quaternion of length 1. */
+    PALPATE_WRIST_NUMBERS = 115,     /**< An axis not of length 1 or along the one before, or another number that no wrist has. */
+    PALPATE_WRIST_RANGE = 116,       /**< An axis of the wrist is out of its range. */
+    PALPATE_WRIST_JUMP = 117         /**< An axis of the wrist has jumped. */
 };
 
 /** Returns a status in a sentence, a static string; "unknown" of a code that is none. */
@@ -587,7 +605,8 @@ typedef struct palpate_feel {
     palpate_wave texture;           /**< Texture between detents. */
     palpate_spring spring;          /**< A spring. */
     palpate_ends ends;              /**< End stops. */
-    float damping;                  /**< Everywhere, N·m·s/rad: 0.0007 s times the stiffness of all parts, or more. */
+    float damping;                  /**< Everywhere, N·m·s/rad: at least 0.0007 s times the stiffness of the parts; of clicks
+                                         and end stops only what their own damping leaves of it. */
     palpate_dial_friction friction; /**< Dry friction. */
     palpate_notch notch;            /**< A click at one position. */
 } palpate_feel;
@@ -607,22 +626,56 @@ enum {
 
 /** A number that was refused, beside its limit: N·m/rad, N·m·s/rad, N·m or rad, by the status. */
 typedef struct palpate_beyond {
-    float asked; /**< The sum of the parts, or how far the dial would be turned. */
-    float limit; /**< Of the motor, or an eighth of a turn. Both are 0 where the status needs no number. */
+    float asked; /**< The sum of the parts, how far the dial would be turned, or the damping everywhere. */
+    float limit; /**< Of the motor, an eighth of a turn, or the damping that is needed everywhere. Both are 0 where the status needs no number. */
 } palpate_beyond;
 
 /** A dial after a tick. */
 typedef struct palpate_turned {
-    int32_t turns;  /**< Whole turns beside the angle. */
-    float angle;    /**< rad. */
+    int32_t turns;  /**< Whole turns that the angle does not count: at first it is within half a turn, and it stays within
+                         some 260 turns. Both together never jump. */
+    float angle;    /**< By which all parts of the feel are placed, rad; only where whole turns are taken out does it jump. */
     float torque;   /**< Of the feel, N·m, before soft start and limits. */
-    int32_t detent; /**< The nearest detent or click. */
+    int32_t detent; /**< The nearest detent or click to the angle. */
     int32_t end;    /**< -1 below the end stops, 1 above, 0 between them. */
 } palpate_turned;
 
+/**
+ * A tool with a shape: a core, and a ball that rolls on it. Its frame has its origin in the probe, about which the handle
+ * turns. Half lengths of the core: all 0 a ball, x and y 0 a finger along z, else a box.
+ */
+typedef struct palpate_tool {
+    float half[3];  /**< m, not negative. */
+    float radius;   /**< Of the ball, m, positive; at least a hundredth of the largest half length. */
+    float friction; /**< Coefficient of dry friction, 0 to 2. */
+} palpate_tool;
+
+/** A gimbal: three axes that meet in the probe, from the arm to the handle, with an encoder each. */
+typedef struct palpate_wrist {
+    float axes[3][3];           /**< Unit vectors in the frame of the arm's last link, of the pose whose angles are 0. */
+    float radians_per_count[3]; /**< As palpate_joint::radians_per_count. */
+    float angle_at_line[3];     /**< As palpate_joint::angle_at_line. */
+    float range[3][2];          /**< Minimum and maximum angle, rad. */
+    float max_rate;             /**< Maximum plausible speed of an axis, rad/s, positive. */
+} palpate_wrist;
+
+/** palpate_held::given_up. */
+enum {
+    PALPATE_GIVEN_UP_INSIDE = 1, /**< The tool lies in the body: no force until it was outside. */
+    PALPATE_GIVEN_UP_LOST = 2    /**< The contacts are not located (again) yet: if it stays, the orientation is missing, older
+                                      than 20 ms, or turns faster than a hand. */
+};
+
+/** The contacts of a tool after a tick. */
+typedef struct palpate_held {
+    uint32_t located;     /**< 1 if all are known. Until then there is no force, and the tool can pass into the body. */
+    uint32_t given_up;    /**< Why there is no contact, such as #PALPATE_GIVEN_UP_INSIDE; 0: there may be. */
+    float orientation[4]; /**< The last one that was noted, x, y, z, w. */
+} palpate_held;
+
 /** A loop's settings. Begin with palpate_settings_recommended(). */
 typedef struct palpate_settings {
-    float rate;               /**< Servo rate, Hz, 1 to 100,000. */
+    float rate;               /**< Servo rate, Hz, 20 to 100,000. */
     float stiffness;          /**< N/m, 0 to palpate_device::max_stiffness. */
     float damping;            /**< N·s/m, 0 to palpate_device::max_damping. */
     float max_force;          /**< N, not negative; the device's own limit applies as well. */
@@ -684,8 +737,8 @@ typedef struct palpate_endurance {
 /** What protects motors and hand. Joints that the device does not have are not looked at. */
 typedef struct palpate_protection {
     palpate_endurance motors[3]; /**< What each motor bears. */
-    float max_joint_rates[3];    /**< Maximum speed of each joint while force is given, rad/s, positive. */
-    float max_probe_speed;       /**< Maximum speed of the probe while force is given, m/s, positive. */
+    float max_joint_rates[3];    /**< Maximum speed of each joint while force is given, rad/s, positive, at most 500. */
+    float max_probe_speed;       /**< Maximum speed of the probe while force is given, m/s, positive, at most 10. */
     uint32_t watch_signs;        /**< 0, or 1: polarity check. Until each motor was seen to push the right way the loop
                                       gives no force and no gravity compensation, and in the first contacts after a start
                                       pulses one motor after another, 8 ms, at most a quarter of max_force. A motor that
@@ -942,8 +995,94 @@ palpate_status palpate_servo_start_paddle_soft_protected(palpate_servo *servo, s
                                                          const palpate_protection *protection, uint32_t reset);
 
 /**
+ * Starts a loop without protection on a serial arm, with a tool that has a shape. Tell the orientation of its handle before
+ * every tick, or at least every 20 ms. There is no force before the first, nor until all contacts are located
+ * (palpate_held::located), nor while a tool that went into the body before is in it: keep it outside until then. The force
+ * is the wall's on the tool: palpate_state::gap and palpate_state::point are the tool's. There is no torque: turned in
+ * contact, the force alone does not conserve energy.
+ *
+ * A tick takes 5,000 to 25,000 instructions of a Cortex-M4F on a box, more on other bodies: `palpate budgets --tool MODEL`.
+ * The start takes less than 20 KB of stack there, a tick less than 10 KB.
+ *
+ * @param servo       palpate_tool_servo::servo, memory for the loop
+ * @param servo_bytes `sizeof` the ::palpate_tool_servo
+ * @param mechanism   the mechanism
+ * @param device      the device's numbers
+ * @param body        the body to render; it must outlive the loop
+ * @param tool        the tool
+ * @param settings    the settings, without friction, texture and virtual tool, which are a point's
+ * @param reset       why the chip was reset: #PALPATE_RESET_POWER_ON to #PALPATE_RESET_UNKNOWN
+ * @return as palpate_servo_start_serial_arm(), or #PALPATE_TOOL_MEMORY to #PALPATE_TOOL_COUPLING.
+ */
+palpate_status palpate_servo_start_serial_arm_tool(palpate_servo *servo, size_t servo_bytes,
+                                                   const palpate_serial_arm *mechanism, const palpate_device *device,
+                                                   const palpate_body *body, const palpate_tool *tool,
+                                                   const palpate_settings *settings, uint32_t reset);
+/** The same on a serial arm, with protection. @return as palpate_servo_start_serial_arm_tool(). */
+palpate_status palpate_servo_start_serial_arm_tool_protected(palpate_servo *servo, size_t servo_bytes,
+                                                             const palpate_serial_arm *mechanism,
+                                                             const palpate_device *device, const palpate_body *body,
+                                                             const palpate_tool *tool, const palpate_settings *settings,
+                                                             const palpate_protection *protection, uint32_t reset);
+/** The same on a delta. @return as palpate_servo_start_serial_arm_tool(). */
+palpate_status palpate_servo_start_delta_tool(palpate_servo *servo, size_t servo_bytes, const palpate_delta *mechanism,
+                                              const palpate_device *device, const palpate_body *body,
+                                              const palpate_tool *tool, const palpate_settings *settings,
+                                              uint32_t reset);
+/** The same on a delta, with protection. @return as palpate_servo_start_serial_arm_tool(). */
+palpate_status palpate_servo_start_delta_tool_protected(palpate_servo *servo, size_t servo_bytes,
+                                                        const palpate_delta *mechanism, const palpate_device *device,
+                                                        const palpate_body *body, const palpate_tool *tool,
+                                                        const palpate_settings *settings,
+                                                        const palpate_protection *protection, uint32_t reset);
+/** The same on a linkage arm. @return as palpate_servo_start_serial_arm_tool(). */
+palpate_status palpate_servo_start_linkage_arm_tool(palpate_servo *servo, size_t servo_bytes,
+                                                    const palpate_linkage_arm *mechanism, const palpate_device *device,
+                                                    const palpate_body *body, const palpate_tool *tool,
+                                                    const palpate_settings *settings, uint32_t reset);
+/** The same on a linkage arm, with protection. @return as palpate_servo_start_serial_arm_tool(). */
+palpate_status palpate_servo_start_linkage_arm_tool_protected(palpate_servo *servo, size_t servo_bytes,
+                                                              const palpate_linkage_arm *mechanism,
+                                                              const palpate_device *device, const palpate_body *body,
+                                                              const palpate_tool *tool,
+                                                              const palpate_settings *settings,
+                                                              const palpate_protection *protection, uint32_t reset);
+
+/**
+ * Tells the orientation of the handle between two ticks: of an inertial sensor, or of a plate that never turns. One
+ * older than 20 ms ends contact, as does one that is 40 rad/s from the one before. A refused one is not noted.
+ *
+ * @param servo      the loop
+ * @param quaternion x, y, z, w of length 1: takes the tool's frame to the device's
+ * @return #PALPATE_OK, #PALPATE_NOT_FINITE, #PALPATE_TOOL_NONE, or #PALPATE_TOOL_ROTATION.
+ */
+palpate_status palpate_servo_orient(palpate_servo *servo, const float *quaternion);
+
+/**
+ * The same from the counts of a wrist on the arm's last link, before each tick.
+ *
+ * @param servo  the loop
+ * @param wrist  the wrist, or NULL: the handle is rigid on the last link or plate, and counts are not looked at
+ * @param arm    three encoder counts of the arm, those of the tick
+ * @param counts three of the wrist; farther from the last good ones than max_rate allows in a tick is a jump. NULL if none
+ *               came, or calls were missed: nothing is noted, and the next are not compared
+ * @return #PALPATE_OK, #PALPATE_TOOL_NONE, or #PALPATE_WRIST_NUMBERS to #PALPATE_WRIST_JUMP.
+ */
+palpate_status palpate_servo_orient_wrist(palpate_servo *servo, const palpate_wrist *wrist, const int32_t *arm,
+                                          const int32_t *counts);
+
+/**
+ * The contacts of the tool after the last tick.
+ *
+ * @param servo the loop
+ * @param held  where they go
+ * @return #PALPATE_OK, or #PALPATE_TOOL_NONE.
+ */
+palpate_status palpate_servo_held(palpate_servo *servo, palpate_held *held);
+
+/**
  * Starts a loop without protection on a dial: the force is the feel's, and there is no body. Stiffness and damping of
- * the settings do nothing. Where force starts, spring, end stops and range of clicks rest where the dial is then.
+ * the settings do nothing. Where force starts, the feel moves to the dial: see palpate_servo_feel().
  *
  * @param servo       memory for the loop
  * @param servo_bytes `sizeof` it
@@ -978,7 +1117,8 @@ palpate_status palpate_servo_set_feel(palpate_servo *servo, uint32_t part, const
                                       palpate_beyond *beyond);
 
 /**
- * The feel that is set now. Where force starts, spring, end stops, clicks and notch move to the dial's turn.
+ * The feel that is set now. Where force starts, the spring rests where the dial is, end stops and range of clicks move until
+ * the dial is between them, and the notch moves to its turn.
  *
  * @param servo the loop
  * @param feel  where it goes

@@ -1,6 +1,7 @@
 //! The surface of a loop, with one tracking law.
 
 use palpate_core::body::{Body, TableCursor};
+use palpate_core::math::Vec3;
 use palpate_core::render::Penalty;
 use palpate_core::servo::{BakedTables, Surface, ToolContact, Touched};
 use palpate_core::track::{Controller, Probe};
@@ -15,6 +16,7 @@ impl<S: Surface> Surface for Felt<S> {
     type Witness = S::Witness;
 
     const HAS_OWN_PUSH: bool = S::HAS_OWN_PUSH;
+    const HAS_SHAPED_TOOL: bool = S::HAS_SHAPED_TOOL;
 
     fn rest(&self) -> S::Witness {
         self.0.rest()
@@ -42,12 +44,20 @@ impl<S: Surface> Surface for Felt<S> {
         self.0.choose(witness, index);
     }
 
+    fn orient(&self, witness: &mut S::Witness, orientation: [f32; 4]) {
+        self.0.orient(witness, orientation);
+    }
+
     fn start_force(&self, witness: &mut S::Witness) {
         self.0.start_force(witness);
     }
 
     fn turn(&self, witness: &mut S::Witness, turns: i32) {
         self.0.turn(witness, turns);
+    }
+
+    fn stopped(&self, witness: &mut S::Witness, probe: Vec3) {
+        self.0.stopped(witness, probe);
     }
 
     #[inline]

@@ -1,12 +1,17 @@
-//! The ground of a loop: a body, rigid or one that gives way, or a dial.
+//! The ground of a loop: a body, rigid or one that gives way, touched by a point or a tool, or a dial.
 
 use crate::body::{Loaded, Standing};
 use crate::felt::Felt;
 use crate::handle::Handle;
+use crate::held::Kept;
 use crate::soft::{SoftStanding, Softened};
 use crate::status::Status;
 use palpate_core::body::Body;
+use palpate_core::pair::ToolSurface;
 use palpate_core::servo::{Knob, KnobWitness, SoftBody, Surface};
+
+/// Words of a servo's handle: of 32 bits on a microcontroller, of 64 on most hosts.
+pub const SERVO_WORDS: usize = if size_of::<usize>() == 4 { 500 } else { 260 };
 
 /// A ground that a loop can render: the handle of a body, or a dial.
 pub trait Rendered {
@@ -14,6 +19,8 @@ pub trait Rendered {
     type Surface: Dialled + 'static;
     /// Its own memory in the loop's.
     type Kept: 'static;
+    /// Words of the loop's handle.
+    const WORDS: usize = SERVO_WORDS;
 
     /// To stand on it.
     ///
@@ -32,6 +39,7 @@ pub trait Dialled: Surface {
 
 impl Dialled for Body<'_> {}
 impl Dialled for SoftBody<'_> {}
+impl Dialled for ToolSurface<'_> {}
 
 impl Dialled for Knob {
     fn dial<'a>(&'a self, state: &'a mut KnobWitness) -> Option<(&'a Knob, &'a mut KnobWitness)> {
@@ -44,6 +52,8 @@ impl Dialled for Knob {
 pub enum Ground {
     Rigid(Standing),
     Soft(SoftStanding),
+    /// A body, and the tool on it in the loop's memory.
+    Tool(*mut Kept),
     /// None: the surface lies in the loop itself.
     Own,
 }
@@ -59,6 +69,7 @@ impl Ground {
             match self {
                 Self::Rigid(standing) => standing.body().map(|_| ()),
                 Self::Soft(standing) => standing.check(),
+                Self::Tool(kept) => Kept::check(kept),
                 Self::Own => Ok(()),
             }
         }

@@ -13,6 +13,7 @@ mod felt;
 mod frame;
 mod ground;
 mod handle;
+mod held;
 mod homing;
 mod homing_calls;
 mod knob;
@@ -30,6 +31,7 @@ mod starts;
 mod state;
 mod status;
 mod texture;
+mod tool;
 mod tracker;
 
 /// Never reached: a test looks at every branch to a panic in the linked image.

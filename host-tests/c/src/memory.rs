@@ -1,10 +1,11 @@
 //! How many words of the caller's memory each handle takes; the header says the same, and a test compares them.
 
 use crate::body::Loaded;
+use crate::ground::SERVO_WORDS;
 use crate::handle::Handle;
 use crate::link::Listening;
 use crate::pair::Paired;
-use crate::servo::{SERVO_WORDS, Started};
+use crate::servo::Started;
 use crate::soft::Softened;
 use crate::tracker::Tracking;
 use palpate_core::body::{Edge, Face};

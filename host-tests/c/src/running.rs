@@ -112,9 +112,9 @@ where
     }
 
     fn turned(&mut self) -> Option<DialState> {
-        let (probe, phase) = (self.state.probe(), self.state.phase());
+        let (angle, phase) = (*self.state.angles().first()?, self.state.phase());
         let (knob, state) = self.dial()?;
-        Some(knob.dial(state, probe, phase))
+        Some(knob.dial(state, angle, phase))
     }
 
     fn report(&self, instructions: u32) -> Report {

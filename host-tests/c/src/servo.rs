@@ -1,6 +1,6 @@
 //! The servo loop: started with a mechanism of any kind, ticked without a word of which.
 
-use crate::ground::{Ground, Rendered};
+use crate::ground::{Ground, Rendered, SERVO_WORDS};
 use crate::handle::{Handle, Kind};
 use crate::mechanisms::MechanismNumbers;
 use crate::numbers::{DeviceNumbers, SettingsNumbers};
@@ -15,10 +15,8 @@ use palpate_core::device::{Device, Kinematics};
 use palpate_core::field::MAX_MODES;
 use palpate_core::servo::{Config, Event, Guard, ResetReason};
 
-/// Words of a servo's handle: of 32 bits on a microcontroller, of 64 on most hosts.
-pub const SERVO_WORDS: usize = if size_of::<usize>() == 4 { 500 } else { 260 };
-/// Words that hold any mechanism's device, loop and state: a handle's, without its head.
-const WORDS: usize = SERVO_WORDS - 6;
+/// Words of a handle's head.
+const HEAD_WORDS: usize = 6;
 
 /// A loop in the caller's memory.
 #[repr(C)]
@@ -26,7 +24,8 @@ pub struct Started {
     ground: Ground,
     /// The loop, which lies in `memory`: a handle that has moved is none.
     running: NonNull<dyn Running>,
-    memory: MaybeUninit<[usize; WORDS]>,
+    /// Any mechanism's device, loop and state; of a tool it goes on past the end ([`Rendered::WORDS`]).
+    memory: MaybeUninit<[usize; SERVO_WORDS - HEAD_WORDS]>,
 }
 
 impl Kind for Started {
@@ -55,20 +54,27 @@ pub struct Parts<P, B> {
     pub reset: u32,
 }
 
+/// A loop by its parts.
+type LoopOf<M, const JOINTS: usize, P, B> =
+    Loop<<M as MechanismNumbers>::Mechanism, JOINTS, <P as Guarding<JOINTS>>::Guard, <B as Rendered>::Surface>;
+
 /// Makes a loop of any mechanism, guarded or not.
 ///
 /// # Safety
-/// As the header says of all functions.
+/// As the header says of all functions, and there are [`Rendered::WORDS`].
 pub unsafe fn begin<M: MechanismNumbers, const JOINTS: usize, P: Guarding<JOINTS>, B: Rendered>(
     servo: *mut Handle<Started>,
     servo_bytes: usize,
     mechanism: *const M,
     parts: Parts<P, B>,
-) -> Result<(), Status>
+) -> Result<NonNull<LoopOf<M, JOINTS, P, B>>, Status>
 where
     M::Mechanism: Kinematics<JOINTS> + Copy + 'static,
 {
-    const { assert!(size_of::<Whole<M::Mechanism, JOINTS, P::Guard, B>>() <= size_of::<[usize; WORDS]>()) };
+    const {
+        let words = size_of::<Whole<M::Mechanism, JOINTS, P::Guard, B>>().div_ceil(size_of::<usize>());
+        assert!(words + HEAD_WORDS <= B::WORDS);
+    }
     const { assert!(align_of::<Whole<M::Mechanism, JOINTS, P::Guard, B>>() <= align_of::<usize>()) };
     let Parts { device, ground, settings, guarding, reset } = parts;
     // SAFETY: the caller's memory for the loop.
@@ -95,13 +101,13 @@ where
     device.kinematics.check(guarding.holds(device.full_torques_n_m()))?;
     // SAFETY: within the value, all of which is there then.
     unsafe {
-        let running = addr_of_mut!((*whole).running);
+        let running = NonNull::new_unchecked(addr_of_mut!((*whole).running));
         running.write(Loop { state: servo.start_after(reset), servo, reset });
         addr_of_mut!((*value).ground).write(ground);
-        addr_of_mut!((*value).running).write(NonNull::new_unchecked(running));
+        addr_of_mut!((*value).running).write(running);
         Handle::seal(place);
+        Ok(running)
     }
-    Ok(())
 }
 
 /// The loop of a handle, if that and the body it feels are there.
@@ -118,6 +124,19 @@ pub unsafe fn running<'a>(servo: *mut Handle<Started>) -> Result<&'a mut dyn Run
     unsafe { ground.check() }?;
     // SAFETY: a handle that is live holds a loop, where it was made.
     Ok(unsafe { &mut *running.as_ptr() })
+}
+
+/// The ground of a loop, if that and the body are there.
+///
+/// # Safety
+/// As [`running`].
+pub unsafe fn ground(servo: *mut Handle<Started>) -> Result<Ground, Status> {
+    // SAFETY: as there.
+    unsafe {
+        let ground = addr_of!((*Handle::live(servo)?).ground).read();
+        ground.check()?;
+        Ok(ground)
+    }
 }
 
 unsafe fn tick(servo: *mut Handle<Started>, sensed: Sensed<'_>, output: *mut MotorOutput) -> Result<(), Status> {

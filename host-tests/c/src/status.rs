@@ -2,7 +2,8 @@
 
 use core::ffi::{CStr, c_char};
 use palpate_core::body::{FileError, SoftError};
-use palpate_core::device::{DeviceError, HomingError, Refusal};
+use palpate_core::device::{DeviceError, HomingError, Refusal, WristError};
+use palpate_core::pair::{ProxyError, ToolError};
 use palpate_core::render::FeelError;
 use palpate_core::servo::{ConfigError, Fault, KnobError, ProtectionError, RenderingError, SafetyError, SettingsError};
 
@@ -84,6 +85,20 @@ pub enum Status {
     KnobFar = 101,
     KnobUndamped = 102,
     KnobMargin = 103,
+    ToolNone = 104,
+    ToolMemory = 105,
+    ToolHalf = 106,
+    ToolRadius = 107,
+    ToolThin = 108,
+    ToolFriction = 109,
+    ToolStiffness = 110,
+    ToolPointFriction = 111,
+    ToolTexture = 112,
+    ToolCoupling = 113,
+    ToolRotation = 114,
+    WristNumbers = 115,
+    WristRange = 116,
+    WristJump = 117,
 }
 
 impl Status {
@@ -119,7 +134,7 @@ impl Status {
             Self::DeviceCentre => c"the workspace's centre is out of the mechanism's reach: it is in metres",
             Self::DeviceMass => c"a mass of the mechanism must be finite and not negative",
             Self::DeviceWeight => c"a motor cannot hold the links' weight: check masses in kg, torque_at_full, and the protection's continuous share",
-            Self::SettingsRate => c"the servo rate must be between 1 Hz and 100 kHz",
+            Self::SettingsRate => c"the servo rate is in Hz and must be between 20 Hz and 100 kHz",
             Self::SettingsStiffness => c"the stiffness must be between 0 and the device's maximum",
             Self::SettingsDamping => c"the damping must be between 0 and the device's maximum",
             Self::SettingsMaxForce => c"the maximum force must be finite and not negative",
@@ -138,7 +153,7 @@ impl Status {
             Self::ProtectionTimeConstant => {
                 c"a winding's time constant must be between 100 and 2,400,000 ticks, and at most ten minutes"
             }
-            Self::ProtectionSpeed => c"the maximum speeds must be positive",
+            Self::ProtectionSpeed => c"the maximum speeds must be positive, of the probe at most 10 m/s, of a joint at most 500 rad/s",
             Self::ProtectionSupply => c"the supply's minimum voltage must be below its maximum",
             Self::ProtectionInertia => c"the joints' inertias must be positive and finite",
             Self::HomingAngle => c"a reference angle must be finite",
@@ -168,11 +183,25 @@ impl Status {
             Self::KnobReleaseRate => c"the dial's release rate must be positive and finite",
             Self::KnobFar => c"the dial is more than an eighth of a turn from there: turn it there first, or give a nearer position",
             Self::KnobMargin => c"min_margin of a dial must be at most 0.8 of its radius, or its force would never be whole",
+            Self::ToolNone => c"the loop has no tool with a shape: start it with palpate_servo_start_serial_arm_tool or the like",
+            Self::ToolMemory => c"a loop with a tool needs more memory: a palpate_tool_servo, of which pass the member servo and the whole size",
+            Self::ToolHalf => c"the tool's half lengths must be 0 to 1e6 m",
+            Self::ToolRadius => c"the tool's radius must be 0 to 1e6 m",
+            Self::ToolThin => c"the tool's radius must be positive, and at least a hundredth of its largest half length",
+            Self::ToolFriction => c"the tool's friction must be 0 to 2",
+            Self::ToolStiffness => c"a tool with a shape needs settings whose stiffness and rate are positive and finite",
+            Self::ToolPointFriction => c"friction_static and friction_dynamic are a point's: leave them 0, and set the tool's friction",
+            Self::ToolTexture => c"texture_share is a point's: leave it 0 with a tool that has a shape",
+            Self::ToolCoupling => c"coupling_mass is a point's: leave it 0 with a tool that has a shape, which has its own coupling",
+            Self::ToolRotation => c"the orientation is no rotation: it needs a quaternion x, y, z, w of length 1",
+            Self::WristNumbers => c"a wrist needs axes of length 1, none along the one before, radians a count not 0, rising ranges and a positive rate",
+            Self::WristRange => c"an axis of the wrist is out of its range: check its encoder and zero",
+            Self::WristJump => c"an axis of the wrist has jumped: check its encoder and wiring",
             Self::KnobUndamped => c"the feel is too stiff for its damping, a dial that is let go of would ring: raise the damping first, or weaken a part",
         }
     }
 
-    const ALL: [Self; 74] = [
+    const ALL: [Self; 88] = [
         Self::Ok,
         Self::Null,
         Self::Misaligned,
@@ -247,13 +276,27 @@ impl Status {
         Self::KnobFar,
         Self::KnobUndamped,
         Self::KnobMargin,
+        Self::ToolNone,
+        Self::ToolMemory,
+        Self::ToolHalf,
+        Self::ToolRadius,
+        Self::ToolThin,
+        Self::ToolFriction,
+        Self::ToolStiffness,
+        Self::ToolPointFriction,
+        Self::ToolTexture,
+        Self::ToolCoupling,
+        Self::ToolRotation,
+        Self::WristNumbers,
+        Self::WristRange,
+        Self::WristJump,
     ];
 }
 
 /// For the last line of each call.
-pub fn code(done: Result<(), Status>) -> Status {
+pub fn code<T>(done: Result<T, Status>) -> Status {
     match done {
-        Ok(()) => Status::Ok,
+        Ok(_) => Status::Ok,
         Err(status) => status,
     }
 }
@@ -300,6 +343,7 @@ impl From<DeviceError> for Status {
 impl From<ConfigError> for Status {
     fn from(error: ConfigError) -> Self {
         match error {
+            ConfigError::Device(error) => error.into(),
             ConfigError::Settings(error) => error.into(),
             ConfigError::Rendering(error) => error.into(),
             ConfigError::Safety(error) => error.into(),
@@ -371,7 +415,7 @@ impl From<HomingError> for Status {
             HomingError::Stop => Self::HomingStop,
             HomingError::TimeoutTicks => Self::HomingTimeout,
             // No loop of this library looks for a field.
-            HomingError::Field => Self::OutOfRange,
+            HomingError::Field | HomingError::PolePairs => Self::OutOfRange,
         }
     }
 }
@@ -408,6 +452,39 @@ impl From<KnobError> for Status {
             KnobError::Undamped { .. } => Self::KnobUndamped,
             KnobError::Margin => Self::KnobMargin,
             // The table is this library's.
+            _ => Self::OutOfRange,
+        }
+    }
+}
+
+impl From<ToolError> for Status {
+    fn from(error: ToolError) -> Self {
+        match error {
+            ToolError::Half => Self::ToolHalf,
+            ToolError::Radius => Self::ToolRadius,
+            // No core of this library is a body.
+            _ => Self::OutOfRange,
+        }
+    }
+}
+
+impl From<ProxyError> for Status {
+    fn from(error: ProxyError) -> Self {
+        match error {
+            ProxyError::Thin => Self::ToolThin,
+            ProxyError::Coupling => Self::ToolStiffness,
+            ProxyError::Friction => Self::ToolFriction,
+            // Those of a tick refuse no tool.
+            _ => Self::OutOfRange,
+        }
+    }
+}
+
+impl From<WristError> for Status {
+    fn from(error: WristError) -> Self {
+        match error {
+            WristError::Range(_) => Self::WristRange,
+            WristError::Jump(_) => Self::WristJump,
             _ => Self::OutOfRange,
         }
     }

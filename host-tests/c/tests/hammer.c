@@ -26,6 +26,7 @@ static palpate_word room[2 * PALPATE_MODE_WORDS];
 static palpate_tracker tracker;
 static palpate_pair pair;
 static palpate_servo servo, soft_servo, dial_servo;
+static palpate_tool_servo tool_servo;
 static palpate_receiver receiver;
 
 static const palpate_serial_arm arm = {0.08f, 0.205f, 0.245f, {0.22f, 0, 0.08f}, {0.15f, 0.04f}};
@@ -548,6 +549,155 @@ static palpate_status bad_dial(void)
     return status;
 }
 
+static const palpate_tool tool = {{0.004f, 0.003f, 0.009f}, 0.003f, 0.4f};
+static const palpate_wrist wrist = {{{0, 0, 1}, {0, 1, 0}, {1, 0, 0}}, {1e-3f, 1e-3f, 1e-3f}, {0, 0, 0},
+                                    {{-2, 2}, {-1, 1}, {-2, 2}}, 40};
+static const int32_t at_zero[3] = {0, 0, 0};
+
+#define start_tool palpate_servo_start_serial_arm_tool
+
+/* A loop with a tool, ticked anywhere and turned anyhow. */
+static void hold(void)
+{
+    palpate_output output;
+    palpate_held held;
+    palpate_servo *one = &tool_servo.servo;
+    good("a tool", start_tool(one, sizeof tool_servo, &arm, &device, &body, &tool, &settings, 0));
+    for (int i = 0; i < 400; i++) {
+        const int32_t counts[3] = {(int32_t)any(200) - 100, (int32_t)any(200) - 100, (int32_t)any(200) - 100};
+        const float turned[4] = {0, 0.6f, 0, any(2) ? 0.8f : -0.8f};
+        good("its orientation", palpate_servo_orient(one, turned));
+        good("a rigid one", palpate_servo_orient_wrist(one, NULL, counts, any(2) ? NULL : counts));
+        good("no counts", palpate_servo_orient_wrist(one, &wrist, counts, NULL));
+        good("a wrist", palpate_servo_orient_wrist(one, &wrist, counts, counts));
+        good("its tick", palpate_servo_tick(one, counts, 3, 1, &output));
+        good("its contacts", palpate_servo_held(one, &held));
+    }
+}
+
+static palpate_status bad_tool(void)
+{
+    palpate_tool none = tool;
+    palpate_settings no_settings = settings;
+    palpate_tool_servo *one = malloc(sizeof *one);
+    void *no_body = no_handle(&body, sizeof body);
+    palpate_status status, expected = PALPATE_OK;
+    switch (any(14)) {
+    case 0: none.half[any(3)] = any(2) ? bad_float() : -1, expected = PALPATE_TOOL_HALF; break;
+    case 1:
+        none.half[0] = none.half[1] = 0, none.half[2] = any(2) ? bad_float() : -1;
+        expected = PALPATE_TOOL_HALF;
+        break;
+    case 2: none.radius = any(2) ? bad_float() : -1, expected = PALPATE_TOOL_RADIUS; break;
+    case 3: none.radius = any(2) ? 0 : 8e-5f, expected = PALPATE_TOOL_THIN; break;
+    case 4: none.friction = any(2) ? bad_float() : any(2) ? -1 : 2.5f, expected = PALPATE_TOOL_FRICTION; break;
+    case 5:
+        (any(2) ? &no_settings.friction_static : &no_settings.friction_dynamic)[0] = 0.2f;
+        expected = PALPATE_TOOL_POINT_FRICTION;
+        break;
+    case 6: no_settings.texture_share = 0.2f, expected = PALPATE_TOOL_TEXTURE; break;
+    case 7: no_settings.coupling_mass = 0.1f, expected = PALPATE_TOOL_COUPLING; break;
+    case 8:
+        (any(2) ? &no_settings.stiffness : &no_settings.rate)[0] = any(2) ? bad_float() : -(float)any(2);
+        expected = PALPATE_TOOL_STIFFNESS;
+        break;
+    case 9: {
+        /* A point's memory and not a word more. */
+        palpate_servo *small = malloc(sizeof *small);
+        status = start_tool(small, sizeof *small, &arm, &device, &body, &tool, &settings, 0);
+        free(small);
+        expected = PALPATE_TOOL_MEMORY;
+        goto end;
+    }
+    case 10: status = start_tool(&one->servo, any(99), &arm, &device, &body, &tool, &settings, 0); goto end;
+    case 11: status = start_tool(&one->servo, sizeof *one, &arm, &device, no_body, &tool, &settings, 0); goto end;
+    case 12:
+        status = palpate_servo_start_delta_tool_protected(&one->servo, sizeof *one, NULL, &device, &body, &tool,
+                                                          &settings, any(2) ? &protection : NULL, 0);
+        goto end;
+    default:
+        status = start_tool(&one->servo, sizeof *one, &arm, &device, &body, any(2) ? NULL : ASKEW(&none), &settings, 0);
+        goto end;
+    }
+    status = any(2) ? start_tool(&one->servo, sizeof *one, &arm, &device, &body, &none, &no_settings, 0)
+                    : palpate_servo_start_serial_arm_tool_protected(&one->servo, sizeof *one, &arm, &device, &body,
+                                                                    &none, &no_settings, &protection, 0);
+    palpate_held held;
+    if (palpate_servo_held(&one->servo, &held) != PALPATE_NOT_READY) stop("a refused tool was taken", status);
+end:
+    if (expected != PALPATE_OK && status != expected) stop("another refusal of a tool", status);
+    free(no_body);
+    free(one);
+    return status;
+}
+
+static palpate_status bad_orientation(void)
+{
+    palpate_servo *one = &tool_servo.servo, *point = any(2) ? &servo : &dial_servo;
+    float turned[4] = {0, 0, 0, 1};
+    palpate_wrist no_wrist = wrist;
+    palpate_held held;
+    int32_t counts[3] = {0, 0, 0};
+    palpate_status expected = PALPATE_OK, status;
+    switch (any(11)) {
+    case 0: turned[any(4)] = bad_float(), status = palpate_servo_orient(one, turned), expected = PALPATE_NOT_FINITE; break;
+    case 1:
+        turned[3] = any(2) ? 0 : 1.01f;
+        status = palpate_servo_orient(one, turned), expected = PALPATE_TOOL_ROTATION;
+        break;
+    case 2: status = palpate_servo_orient(any(2) ? NULL : one, any(2) ? NULL : ASKEW(turned)); break;
+    case 3:
+        status = any(2) ? palpate_servo_orient(point, turned)
+                        : any(2) ? palpate_servo_orient_wrist(point, any(2) ? NULL : &wrist, counts, counts)
+                                 : palpate_servo_held(point, &held);
+        expected = PALPATE_TOOL_NONE;
+        break;
+    case 4:
+        switch (any(5)) {
+        case 0: no_wrist.axes[any(3)][any(3)] = any(2) ? bad_float() : 2; break;
+        case 1: memcpy(no_wrist.axes[1], no_wrist.axes[any(2) * 2], sizeof no_wrist.axes[1]); break;
+        case 2: (any(2) ? no_wrist.radians_per_count : no_wrist.angle_at_line)[any(3)] = bad_float(); break;
+        case 3: no_wrist.range[any(3)][0] = any(2) ? bad_float() : 9; break;
+        default: no_wrist.max_rate = any(2) ? bad_float() : -(float)any(2); break;
+        }
+        status = palpate_servo_orient_wrist(one, &no_wrist, counts, any(2) ? NULL : counts);
+        expected = PALPATE_WRIST_NUMBERS;
+        break;
+    case 5:
+        counts[any(3)] = any(2) ? 5000 : INT32_MIN;
+        status = palpate_servo_orient_wrist(one, &wrist, at_zero, counts), expected = PALPATE_WRIST_RANGE;
+        break;
+    case 6:
+        good("forgotten", palpate_servo_orient_wrist(one, &wrist, at_zero, NULL));
+        good("counts", palpate_servo_orient_wrist(one, &wrist, at_zero, counts));
+        counts[any(3)] = 500;
+        status = palpate_servo_orient_wrist(one, &wrist, at_zero, counts), expected = PALPATE_WRIST_JUMP;
+        break;
+    case 7: status = palpate_servo_orient_wrist(one, any(2) ? NULL : &wrist, any(2) ? NULL : ASKEW(counts), counts); break;
+    case 8: status = palpate_servo_orient_wrist(one, ASKEW(&wrist), at_zero, counts); break;
+    case 9: status = palpate_servo_held(any(2) ? NULL : one, any(2) ? NULL : ASKEW(&held)); break;
+    default: {
+        /* Moved, or its body is gone. */
+        palpate_tool_servo *other = malloc(sizeof *other);
+        palpate_body *gone = malloc(sizeof *gone);
+        void *place = malloc(info.buffer_bytes);
+        good("a body", palpate_body_load(gone, sizeof *gone, file, file_bytes, place, info.buffer_bytes));
+        good("a tool", start_tool(&other->servo, sizeof *other, &arm, &device, gone, &tool, &settings, 0));
+        good("its orientation", palpate_servo_orient(&other->servo, turned));
+        if (any(2)) memset(gone, 0, sizeof *gone);
+        else memcpy(&tool_servo, other, sizeof *other), free(other), other = &tool_servo;
+        status = any(2) ? palpate_servo_orient(&other->servo, turned) : palpate_servo_held(&other->servo, &held);
+        expected = PALPATE_NOT_READY;
+        if (other != &tool_servo) free(other);
+        free(place);
+        free(gone);
+        good("a tool", start_tool(one, sizeof tool_servo, &arm, &device, &body, &tool, &settings, 0));
+    }
+    }
+    if (expected != PALPATE_OK && status != expected) stop("another refusal of an orientation", status);
+    return status;
+}
+
 static palpate_status bad_tick(void)
 {
     const int32_t counts[3] = {0, 0, 0};
@@ -630,11 +780,13 @@ int main(int count, char **arguments)
     motor = device, motor.joints[0] = shaft, motor.min_margin = 0.01f, motor.max_stiffness = 4000,
     motor.max_joint_rate = 120;
     turn();
+    hold();
     good("receiver", palpate_receiver_start(&receiver, sizeof receiver));
     use(&body);
 
     palpate_status (*const ways[])(void) = {spoiled_file, bad_load, bad_info, bad_probe, bad_start,
                                             bad_pair, bad_servo, bad_protection, bad_mechanism, bad_homing, bad_soft, bad_dial,
+                                            bad_tool, bad_orientation,
                                             bad_tick, bad_receiver};
     unsigned long of[128] = {0}, refused = 0;
     while (refused < calls) {
@@ -653,6 +805,7 @@ int main(int count, char **arguments)
     use(&body);
     press();
     turn();
+    hold();
     for (int status = 1; status < 128; status++) {
         if (of[status]) printf("  %7lu  %s\n", of[status], palpate_status_text(status));
     }

@@ -10,6 +10,7 @@ extern const uint8_t part_palp[], part_palp_end[];
 static palpate_body body;
 static palpate_word buffer[PALPATE_BODY_BUFFER_WORDS(6, 12)];
 static palpate_servo servo;
+static palpate_tool_servo room;
 static int32_t third;
 static uint32_t touched;
 
@@ -62,6 +63,25 @@ __attribute__((noinline)) static void protected(void)
                                 PALPATE_RESET_POWER_ON));
 }
 
+__attribute__((noinline)) static void tool(void)
+{
+    static const palpate_tool finger = {{0, 0, 0.009f}, 0.003f, 0.4f};
+    palpate_settings settings;
+    settings_of(&settings);
+    settings.body_origin[2] -= 0.012f;
+    good(palpate_servo_start_serial_arm_tool_protected(&room.servo, sizeof room, &MECHANISM, &DEVICE, &body, &finger,
+                                                       &settings, &PROTECTION, PALPATE_RESET_POWER_ON));
+}
+
+__attribute__((noinline)) static void tool_tick(void)
+{
+    const int32_t counts[3] = {0, 0, third};
+    palpate_output output;
+    good(palpate_servo_orient_wrist(&room.servo, 0, counts, 0));
+    good(palpate_servo_tick(&room.servo, counts, 3, 1, &output));
+    touched += output.drives;
+}
+
 __attribute__((noinline)) static void tick(void)
 {
     const int32_t counts[3] = {0, 0, third};
@@ -101,12 +121,12 @@ static void say(const char *what, uint32_t number)
     put(at, (uint32_t)(digits + sizeof digits - at));
 }
 
-static uint32_t ticks(void)
+static uint32_t ticks(void (*of)(void))
 {
     uint32_t most = 0;
     for (int32_t at = 0; at < 3000; at++) {
         third = at < 1000 ? at / 5 : 200;
-        const uint32_t stack = stack_of(tick);
+        const uint32_t stack = stack_of(of);
         if (stack > most) most = stack;
     }
     return most;
@@ -116,9 +136,11 @@ int main(void)
 {
     say("load ", stack_of(load));
     say("start ", stack_of(plain));
-    say("tick ", ticks());
+    say("tick ", ticks(tick));
     say("protected start ", stack_of(protected));
-    say("protected tick ", ticks());
+    say("protected tick ", ticks(tick));
+    say("tool start ", stack_of(tool));
+    say("tool tick ", ticks(tool_tick));
     say("driven ", touched);
     for (;;) semihosting(0x18, (const void *)0x20026u);
 }

@@ -25,7 +25,7 @@ fn trace(options: &SceneOptions, scene: &Scene, link: &mut dyn Link) -> Trace {
 }
 
 /// The functions of an image that have a branch to a panic, by the disassembler's word.
-pub fn panicking(elf: &Path) -> Vec<String> {
+fn panicking(elf: &Path) -> Vec<String> {
     let code = run_program(Command::new("arm-none-eabi-objdump").args(["-d", "-C", "--no-show-raw-insn"]).arg(elf));
     let is_panic = |text: &str| ["panicking", "rust_begin_unwind", "_fail"].iter().any(|mark| text.contains(mark));
     let (mut function, mut found) = ("", Vec::new());
@@ -37,6 +37,19 @@ pub fn panicking(elf: &Path) -> Vec<String> {
         }
     }
     found
+}
+
+/// Links a program for a board, in which no function may have a branch to a panic, and `part` must be linked.
+pub fn cannot_panic(program: &str, part: &str) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (source, elf) = (folder.path().join("linked.c"), folder.path().join("linked.elf"));
+    fs::write(&source, program).expect("a source");
+    let mut gcc = in_c::compiler(in_c::Core::M4, "gcc").expect("in the repository");
+    gcc.arg(&source).arg(library(in_c::Core::M4));
+    gcc.args(["-Wl,--gc-sections,-z,noexecstack", "--specs=nosys.specs", "-lm"]);
+    run_program(gcc.arg("-o").arg(&elf));
+    assert_eq!(panicking(&elf), Vec::<String>::new());
+    assert!(run_program(Command::new("arm-none-eabi-nm").arg("-C").arg(&elf)).contains(part), "no {part} is linked");
 }
 
 #[test]
@@ -115,8 +128,9 @@ fn a_loop_takes_no_more_stack_than_its_header_says() {
         number.and_then(|number| number.parse().ok()).unwrap_or_else(|| panic!("no {what}: {said}"))
     };
     assert!(of("driven") > 5000, "without force a tick does less: {said}");
-    // As palpate_body_load() says.
+    // As palpate_body_load() and palpate_servo_start_serial_arm_tool() say.
     let limits = [("load", 2048), ("start", 6144), ("tick", 2048), ("protected start", 6144), ("protected tick", 2048)];
+    let limits = limits.into_iter().chain([("tool start", 20_480), ("tool tick", 10_240)]);
     for (what, limit) in limits {
         assert!((256..limit).contains(&of(what)), "{what}: {said}");
     }

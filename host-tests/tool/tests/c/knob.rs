@@ -1,20 +1,18 @@
 //! A dial in C beside the same dial in Rust, tick by tick: while it turns and rests, its feel is changed at random, and
 //! what is refused in Rust is not even tried there.
 
-use crate::example::panicking;
-use crate::running::{is_wanted, library, program, run};
+use crate::example::cannot_panic;
+use crate::running::{is_wanted, program, run};
 use palpate::device::drive::Feed;
 use palpate::device::presets::{GIMBAL_KNOB, GIMBAL_KNOB_PROTECTION as PROTECTION};
 use palpate::device::{Counts, Device, Dial, Homing, Reference};
 use palpate::render::{Detents, DialFriction, Ends, Feel, FeelError, FeelPart, Notch, Spring, Wave};
 use palpate::servo::{Config, Fault, Input, Knob, KnobError, Output, Servo, Settings};
-use palpate_tool::in_c::{self, Core};
 use rand::{Rng, RngExt as _, SeedableRng};
 use rand_pcg::Pcg64;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::fs;
-use std::process::Command;
 
 const TICKS: usize = 20_000;
 const RATE: f32 = 4_000.0;
@@ -229,7 +227,7 @@ fn a_dial_whose_feel_is_changed_at_random_has_the_bits_of_rust_and_makes_no_step
         }
         let _ = servo.tick(&mut state, Input::Sensors { counts: [Counts(counts)], enable });
         let [duty] = state.duties();
-        let (duty, dial) = (i32::from(duty.0), KNOB.dial(state.witness(), state.probe(), state.phase()));
+        let (duty, dial) = (i32::from(duty.0), KNOB.dial(state.witness(), state.angles()[0], state.phase()));
         if within >= CHANGED_AT && state.fade() == 1.0 && tick < JUMPS_AT {
             step = step.max((duty - before).abs());
         }
@@ -271,6 +269,15 @@ fn a_dial_whose_feel_is_changed_at_random_has_the_bits_of_rust_and_makes_no_step
     assert_eq!(lines.collect::<Vec<_>>(), ["joint angle jumped"]);
 }
 
+#[test]
+fn a_dial_and_its_feel_are_by_one_angle_and_nothing_jumps_where_it_is_released() {
+    if !is_wanted("the angle of a dial in C") {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    assert_eq!(run(&mut program("tests/frame.c", folder.path(), &[])), "");
+}
+
 /// As much as links a dial's loop.
 const LINKED: &str = "#include <palpate.h>
 int main(void)
@@ -297,14 +304,7 @@ fn the_image_of_a_dial_cannot_panic() {
     if !is_wanted("the image of a dial in C") {
         return;
     }
-    let folder = tempfile::tempdir().expect("a folder");
-    let (source, elf) = (folder.path().join("dial.c"), folder.path().join("dial.elf"));
-    fs::write(&source, LINKED).expect("a source");
-    let mut gcc = in_c::compiler(Core::M4, "gcc").expect("in the repository");
-    gcc.arg(&source).arg(library(Core::M4)).args(["-Wl,--gc-sections,-z,noexecstack", "--specs=nosys.specs", "-lm"]);
-    run(gcc.arg("-o").arg(&elf));
-    assert_eq!(panicking(&elf), Vec::<String>::new());
-    assert!(run(Command::new("arm-none-eabi-nm").arg("-C").arg(&elf)).contains("Knob"), "no dial is linked");
+    cannot_panic(LINKED, "Knob");
 }
 
 /// Whether two rows are the same, but for how an angle is written.

@@ -13,3 +13,4 @@ mod knob;
 mod rendering;
 mod running;
 mod servo;
+mod tool;

@@ -13,7 +13,7 @@ int board_enable(void);                   /* 1 while a hand holds the enable but
 void board_drive(const int32_t *duties);  /* to each motor, full scale -32767 to 32767, and its stage on */
 void board_off(void);                     /* every stage off */
 
-palpate_status servo_start(float *rate);  /* once; the rate that servo_tick() must be called at, Hz */
+palpate_status servo_start(float *rate);  /* with the timer stopped; the rate that servo_tick() must be called at, Hz */
 void servo_tick(int is_late);             /* in the timer's interrupt; 1 if the last one ended late */
 const char *servo_fault(void);            /* "none", or why the motors are off until a new start */
 

@@ -8,7 +8,7 @@ static const palpate_device device = {
     .joints = {{.radians_per_count = 6.2831853f / 16384, .torque_at_full = 0.063f, .dry_friction = 2e-3f,
                 .least_angle = -INFINITY, .greatest_angle = INFINITY}}, /* it turns without end */
     .min_margin = 0.01f, .max_joint_rate = 120, .max_force = 2.8f, .max_stiffness = 4000, .max_damping = 8};
-/* The damping is 0.0007 s times the stiffness of all parts, or more. */
+/* Detents of 0.24 N·m/rad need 0.0007 s times that everywhere; the stops have damping of their own. */
 static palpate_feel feel = {.detents = {.pitch = 0.2618f, .torque = 0.01f},
                             .ends = {.between = {-1, 1}, .stiffness = 0.5f, .damping = 5e-4f}, .damping = 3e-4f};
 static palpate_servo servo;
