@@ -4,7 +4,8 @@
 use crate::refusal::Refusal;
 use palpate::device::{Device, Kinematics, Protection};
 use palpate::servo::recommended::{self, Recommended};
-use palpate_sim::devices::{DEVICES, OwnDevice, Preset};
+use palpate::servo::{ConfigError, Settings, SettingsError};
+use palpate_sim::devices::{DEVICES, DeviceFileError, OwnDevice, Preset};
 use palpate_sim::plant::PlantSettings;
 use pyo3::prelude::*;
 use std::fs;
@@ -37,6 +38,29 @@ pub trait OnDevice {
     ) -> Result<Self::Made, Refusal>;
 }
 
+/// A refused setting by its argument, with its number and the device's limit.
+pub fn refused<K>(error: ConfigError, settings: &Settings, device: &Device<K, 3>) -> Refusal {
+    let bounded = |name: &str, number: f32, most: f32, unit: &str| {
+        format!("{name} = {number}: this device takes 0 to {most} {unit}")
+    };
+    let number = match error {
+        ConfigError::Settings(SettingsError::Rate) => ("rate", settings.rate_hz),
+        ConfigError::Settings(SettingsError::MaxForce) => ("max_force", settings.max_force_n),
+        ConfigError::Settings(SettingsError::VelocityCorner) => ("velocity_corner", settings.velocity_corner_hz),
+        ConfigError::Settings(SettingsError::SoftStart) => ("soft_start", settings.soft_start_s),
+        ConfigError::Settings(SettingsError::Stiffness) => {
+            let Settings { stiffness_n_per_m: stiffness, .. } = *settings;
+            return Refusal::Settings(bounded("stiffness", stiffness, device.max_stiffness_n_per_m, "N/m"));
+        }
+        ConfigError::Settings(SettingsError::Damping) => {
+            let Settings { damping_n_s_per_m: damping, .. } = *settings;
+            return Refusal::Settings(bounded("damping", damping, device.max_damping_n_s_per_m, "N·s/m"));
+        }
+        other => return Refusal::Settings(other.to_string()),
+    };
+    Refusal::Settings(format!("{} = {}: {error}", number.0, number.1))
+}
+
 /// Does it with one's own device, from its file, or with the one of this name: a name that ends in `.toml` is a file, as
 /// on the command line.
 ///
@@ -49,7 +73,12 @@ pub fn on_device<V: OnDevice>(device: &Path, what: V) -> Result<V::Made, Refusal
         let own = OwnDevice::parse(&text, &label).map_err(|error| Refusal::Settings(error.to_string()))?;
         (own.preset, own.protection, own.plant, None)
     } else {
-        let none = || Refusal::Settings(format!("there is no device {label:?}; there are {}", NAMES.join(", ")));
+        let none = || {
+            Refusal::Settings(match device.extension() {
+                Some(_) => DeviceFileError::Kind(label.clone()).to_string(),
+                None => format!("there is no device {label:?}; there are {}", NAMES.join(", ")),
+            })
+        };
         let known = DEVICES.iter().find(|known| known.name == label && NAMES.contains(&known.name));
         let known = known.ok_or_else(none)?;
         (known.preset, known.protection(), known.plant, Some(known.recommended()))

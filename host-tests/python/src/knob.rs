@@ -2,11 +2,9 @@
 
 use crate::arrays::line;
 use crate::refusal::Refusal;
-use palpate::render::Detents;
-use palpate::servo::DAMPING_PER_STIFFNESS_S;
-use palpate_link::{Device, Dial, DialFriction, Ends, Error, FeelPart, Line, Notch, Port, Spring, Wave};
-use palpate_sim::knob::{DIAL_ZERO, KnobFlash, SEARCH, SharedKnob, SimulatedKnob};
-use palpate_sim::plant::{DialSettings, Fingers};
+use palpate_link::{Device, Dial, DialFriction, Error, FeelPart, Line, Notch, Port, Spring, Wave};
+use palpate_sim::knob::{DIAL_ZERO, KnobFlash, SEARCH, SharedKnob, SimulatedKnob, dial};
+use palpate_sim::plant::Fingers;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::f64::consts::TAU;
@@ -135,19 +133,16 @@ fn part(name: &str, numbers: Option<&[f64]>) -> Option<FeelPart> {
     };
     let clicks = |numbers: &[f32]| {
         let [pitch, max_force, first, last, snap] = *numbers.first_chunk()?;
-        // As `palpate talk` has it: the whole torque where the next one takes over, four times as stiff beyond them.
-        let stiffness = max_force / (snap * pitch);
-        let (wall_stiffness, [first, last]) = (4.0 * stiffness, [first, last].map(|number| number as i32));
-        let damping = numbers.get(5).copied().unwrap_or(DAMPING_PER_STIFFNESS_S * wall_stiffness);
-        Some(Detents { pitch, stiffness, damping, snap, first, last, wall_stiffness, max_force })
+        let outer = [first, last].map(|number| number as i32);
+        Some(palpate_link::clicks(pitch, max_force, outer, snap, numbers.get(5).copied()))
     };
     let spring = |numbers: &[f32]| {
         let [stiffness_n_m_per_rad, max_torque_n_m, rest_rad] = *numbers.first_chunk()?;
         Some(Spring { stiffness_n_m_per_rad, rest_rad, max_torque_n_m })
     };
     let ends = |numbers: &[f32]| {
-        let [low, high, stiffness_n_m_per_rad, damping_n_m_s_per_rad] = *numbers.first_chunk()?;
-        Some(Ends { between_rad: [low, high], stiffness_n_m_per_rad, damping_n_m_s_per_rad })
+        let [low, high, stiffness] = *numbers.first_chunk()?;
+        Some(palpate_link::ends([low, high], stiffness, numbers.get(3).copied()))
     };
     let friction = |numbers: &[f32]| {
         let [torque_n_m, whole_at_rad_per_s] = *numbers.first_chunk()?;
@@ -176,7 +171,7 @@ fn part(name: &str, numbers: Option<&[f64]>) -> Option<FeelPart> {
 impl Knob {
     #[staticmethod]
     fn simulated(py: Python<'_>) -> PyResult<Self> {
-        let knob = SharedKnob::new(DialSettings::gimbal_knob());
+        let knob = SharedKnob::new(dial());
         let of = knob.clone();
         Self::over(py, Some(knob), move || {
             // It lives as long as the program, as a board's flash does.
@@ -235,14 +230,14 @@ impl Knob {
         }
         let columns = PyDict::new(py);
         columns.set_item("tick", line(py, dials.iter().map(|dial| dial.tick).collect()))?;
-        let angle = |dial: &Dial| f64::from(dial.turns) * TAU + f64::from(dial.angle);
-        columns.set_item("angle", line(py, dials.iter().map(angle).collect()))?;
+        columns.set_item("angle", line(py, dials.iter().map(|dial| f64::from(dial.angle)).collect()))?;
         columns.set_item("rate", line(py, dials.iter().map(|dial| dial.rate).collect()))?;
         columns.set_item("torque", line(py, dials.iter().map(|dial| dial.torque).collect()))?;
         columns.set_item("feel", line(py, dials.iter().map(|dial| dial.feel).collect()))?;
         columns.set_item("detent", line(py, dials.iter().map(|dial| dial.detent).collect()))?;
         columns.set_item("end", line(py, dials.iter().map(|dial| dial.end).collect()))?;
         columns.set_item("kept", line(py, dials.iter().map(|dial| dial.kept).collect()))?;
+        columns.set_item("turns", line(py, dials.iter().map(|dial| dial.turns).collect()))?;
         Ok(columns)
     }
 
@@ -260,8 +255,10 @@ impl Knob {
         }
         let knob = self.world()?.clone();
         // As the encoder counts, whose zero is not the shaft's.
-        let to = to + DIAL_ZERO;
-        let from = knob.world().dial.angle();
+        let (from, to) = {
+            let world = knob.world();
+            (world.dial.angle(), to + DIAL_ZERO + TAU * f64::from(world.turns))
+        };
         let hand = move |share: f64, rate| Fingers { stiffness, damping, aim: from + (to - from) * share, rate };
         self.ask(py, move |device| {
             let began = device.now();

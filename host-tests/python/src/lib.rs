@@ -20,6 +20,7 @@ mod rig;
 mod settle;
 mod simulate;
 mod simulated;
+mod tool;
 mod tracker;
 
 use pyo3::prelude::*;
@@ -31,6 +32,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<body::Body>()?;
     module.add_class::<tracker::Tracker>()?;
     module.add_class::<pair::Pair>()?;
+    module.add_class::<tool::ToolTracker>()?;
     module.add_class::<link::Link>()?;
     module.add_class::<knob::Knob>()?;
     module.add_class::<rig::Device>()?;

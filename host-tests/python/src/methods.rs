@@ -8,10 +8,12 @@ use crate::modes::Modes;
 use crate::pair::Pair;
 use crate::refusal::Refusal;
 use crate::settle::{Ends, Law, Target, settle, settle_baseline};
+use crate::tool::ToolTracker;
 use crate::tracker::Tracker;
 use crate::{evaluate, patches};
 use glam::DVec3;
 use numpy::PyReadonlyArray2;
+use palpate_bake::flaws;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple};
 use std::fs;
@@ -73,6 +75,17 @@ impl Body {
     #[getter]
     fn patches<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
         PyList::new(py, (0..self.model.patches.len()).map(|index| self.model.patch_label(index)))
+    }
+
+    #[getter]
+    fn flaws(&self, py: Python<'_>) -> Vec<String> {
+        py.detach(|| {
+            let surfaces: Vec<_> = self.baked.faces.iter().map(|face| face.surface.clone()).collect();
+            let labels = self.baked.labels(&self.model);
+            let found = flaws::find(&surfaces, &self.baked.topology);
+            let label = |index: usize| labels.get(index).cloned().unwrap_or_default();
+            found.iter().map(|flaw| flaw.describe(&label, self.model.centre, self.model.unit)).collect()
+        })
     }
 
     #[getter]
@@ -184,7 +197,7 @@ impl Body {
             return Err(Refusal::Settings(format!("tolerance is {tolerance}: {says}")).into());
         }
         let (law, patch, place) = (Law::named(law_name)?, &self.face(face)?.patch, self.local(probe));
-        let (ends, steps, rests, arrived): Ends = py.detach(|| {
+        let (ends, steps, rests, arrived, evaluations): Ends = py.detach(|| {
             let probe = DVec3::from_array(probe) - self.middle();
             let target = Target::new(&self.baked.faces[face].surface, probe, tolerance * f64::from(self.size()));
             match law {
@@ -192,7 +205,9 @@ impl Body {
                 Law::Baseline(method) => settle_baseline(method, probe, &starts, most, &target),
             }
         });
-        (table(py, ends), line(py, steps), line(py, rests), line(py, arrived)).into_pyobject(py)
+        let last = [arrived, evaluations].map(|numbers| line(py, numbers));
+        let [arrived, evaluations] = last;
+        (table(py, ends), line(py, steps), line(py, rests), arrived, evaluations).into_pyobject(py)
     }
 
     fn tracker(slf: Py<Self>, law: &str, start: Option<(u16, f32, f32)>) -> PyResult<Tracker> {
@@ -201,5 +216,9 @@ impl Body {
 
     fn pair(slf: Py<Self>, other: Py<Self>, face: usize, other_face: usize) -> PyResult<Pair> {
         Ok(Pair::new([slf, other], [face, other_face])?)
+    }
+
+    fn tool(slf: Py<Self>, half: [f64; 3], core: Option<Py<Self>>, radius: f64) -> PyResult<ToolTracker> {
+        Ok(ToolTracker::new(slf, half, core, radius)?)
     }
 }

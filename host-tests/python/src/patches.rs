@@ -56,13 +56,16 @@ fn degree(value: &Bound<'_, PyAny>) -> Result<Value, String> {
 
 fn points(value: &Bound<'_, PyAny>) -> Result<Value, String> {
     let rows: Vec<Vec<Vec<f64>>> = value.extract().map_err(|_| "its points are not rows of rows of 3 or 4 numbers")?;
-    let row = |row: Vec<Vec<f64>>| row.into_iter().map(|point| numbers("points", point)).collect::<Result<_, _>>();
-    Ok(Value::Array(rows.into_iter().map(|line| row(line).map(Value::Array)).collect::<Result<_, _>>()?))
+    let row = |(u, row): (usize, Vec<Vec<f64>>)| {
+        let points = row.into_iter().enumerate().map(|(v, point)| numbers(&format!("points[{u}][{v}]"), point));
+        points.collect::<Result<_, _>>().map(Value::Array)
+    };
+    Ok(Value::Array(rows.into_iter().enumerate().map(row).collect::<Result<_, _>>()?))
 }
 
 fn numbers(what: &str, numbers: Vec<f64>) -> Result<Value, String> {
-    if !numbers.iter().all(|number| number.is_finite()) {
-        return Err(format!("a number of its {what} is not finite"));
+    if let Some(number) = numbers.iter().find(|number| !number.is_finite()) {
+        return Err(format!("{what}: {number} is not finite"));
     }
     Ok(Value::Array(numbers.into_iter().map(Value::Float).collect()))
 }

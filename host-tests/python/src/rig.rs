@@ -2,16 +2,17 @@
 
 use crate::arrays::{Table, rows, table, usable};
 use crate::body::Body;
-use crate::devices::{OnDevice, on_device};
+use crate::devices::{OnDevice, on_device, refused};
 use crate::refusal::Refusal;
 use glam::DVec3;
 use numpy::PyReadonlyArray2;
 use palpate::body::Effort;
 use palpate::device::{Counts, Kinematics, Protection};
-use palpate::servo::recommended::Recommended;
+use palpate::servo::recommended::{self, Recommended};
 use palpate::servo::{Config, Event, Guard, Input, Rendering, Safety, Servo, ServoState, Settings, Surface};
 use palpate::wire::Report;
 use palpate_sim::plant::{HandSettings, PlantSettings, StillHand};
+use palpate_sim::recorded::Recorded;
 use pyo3::prelude::*;
 use std::path::PathBuf;
 
@@ -74,13 +75,14 @@ impl Device {
         core::array::from_fn(|joint| encoders[joint].counts(angles[joint]))
     }
 
-    fn torques(&self, duties: [i16; 3]) -> [f64; 3] {
+    fn torques(&self, duties: [i16; 3], rates: [f64; 3]) -> [f64; 3] {
         let motors = self.plant.motors();
-        core::array::from_fn(|joint| motors[joint].aim(duties[joint]) * motors[joint].torque_per_ampere)
+        let current = |joint: usize| motors[joint].settled(duties[joint], rates[joint]);
+        core::array::from_fn(|joint| current(joint) * motors[joint].torque_per_ampere)
     }
 
     fn numbers(&self) -> PyResult<String> {
-        let says = "the numbers of this mechanism are not written out: an arm without counterweights, or a delta";
+        let says = "a device with fewer than three joints has no numbers here";
         Ok(self.plant.numbers().ok_or_else(|| Refusal::Settings(says.to_owned()))?)
     }
 }
@@ -119,9 +121,18 @@ pub struct Loop {
     last: Report,
 }
 
+/// The device of a loop: one that has a name or a file, or that of a recording.
+#[derive(FromPyObject)]
+enum LoopDevice {
+    Named(PathBuf),
+    Recorded(Vec<f32>),
+}
+
 struct Started {
     body: &'static palpate::body::Body<'static>,
+    /// Its stiffness, damping, maximum force and velocity corner count where `given` has them.
     config: Config<3>,
+    given: [Option<f32>; 4],
     protected: bool,
     beyond: bool,
 }
@@ -134,10 +145,28 @@ impl OnDevice for Started {
         device: &'static palpate::device::Device<K, 3>,
         protection: Protection<3>,
         _: &PlantSettings,
-        _: Recommended,
+        Recommended { settings: recommended, .. }: Recommended,
     ) -> Result<Self::Made, Refusal> {
-        let refused = |says: &dyn std::fmt::Display| Refusal::Settings(says.to_string());
-        let Self { body, config, protected, beyond } = self;
+        let protection = self.protected.then_some(protection);
+        self.on_protected(device, protection, &recommended)
+    }
+}
+
+impl Started {
+    fn on_protected<K: Kinematics<3> + Copy + Sync + 'static>(
+        self,
+        device: &'static palpate::device::Device<K, 3>,
+        protection: Option<Protection<3>>,
+        recommended: &Settings,
+    ) -> Result<Box<dyn Ticking>, Refusal> {
+        let Self { body, mut config, given: [stiffness, damping, max_force, velocity_corner], beyond, .. } = self;
+        config.settings = Settings {
+            stiffness_n_per_m: stiffness.unwrap_or(recommended.stiffness_n_per_m),
+            damping_n_s_per_m: damping.unwrap_or(recommended.damping_n_s_per_m),
+            max_force_n: max_force.unwrap_or(recommended.max_force_n),
+            velocity_corner_hz: velocity_corner.unwrap_or(recommended.velocity_corner_hz),
+            ..config.settings
+        };
         let device = if beyond {
             let Settings { stiffness_n_per_m, damping_n_s_per_m, .. } = config.settings;
             Box::leak(Box::new(palpate::device::Device {
@@ -148,12 +177,13 @@ impl OnDevice for Started {
         } else {
             device
         };
-        if protected {
-            let servo = Servo::try_protected(device, body, protection, config).map_err(|error| refused(&error))?;
+        let refused = |error| refused(error, &config.settings, device);
+        if let Some(protection) = protection {
+            let servo = Servo::try_protected(device, body, protection, config).map_err(refused)?;
             let state = servo.start();
             Ok(Box::new(Running { servo, state }))
         } else {
-            let servo = Servo::try_new(device, body, config).map_err(|error| refused(&error))?;
+            let servo = Servo::try_new(device, body, config).map_err(refused)?;
             let state = servo.start();
             Ok(Box::new(Running { servo, state }))
         }
@@ -168,13 +198,13 @@ impl Loop {
     ))]
     #[allow(clippy::too_many_arguments, reason = "each is an argument of the function in Python, by its name")]
     fn new(
-        device: PathBuf,
+        device: LoopDevice,
         body: Py<Body>,
         rate: f32,
-        stiffness: f32,
-        damping: f32,
-        max_force: f32,
-        velocity_corner: f32,
+        stiffness: Option<f32>,
+        damping: Option<f32>,
+        max_force: Option<f32>,
+        velocity_corner: Option<f32>,
         soft_start: f32,
         smooth: bool,
         protected: bool,
@@ -186,19 +216,26 @@ impl Loop {
         body.at_rest("a loop")?;
         let settings = Settings {
             rate_hz: rate,
-            stiffness_n_per_m: stiffness,
-            damping_n_s_per_m: damping,
-            max_force_n: max_force,
-            velocity_corner_hz: velocity_corner,
             soft_start_s: soft_start,
             body_origin_m: (DVec3::from_array(at) + body.middle()).as_vec3(),
+            ..Settings::DEFAULT
         };
         let rendering = if smooth { Rendering::SMOOTH } else { Rendering::PLAIN };
         let safety = Safety { link_timeout_s: 0.1, ..Safety::DEFAULT };
         let config = Config { settings, rendering, safety, ..Config::DEFAULT };
         // The loop wants its surface for good.
         let surface = Box::leak(Box::new(body.tables.with_effort(Effort::ONE)));
-        let running = on_device(&device, Started { body: surface, config, protected, beyond })?;
+        let given = [stiffness, damping, max_force, velocity_corner];
+        let started = Started { body: surface, config, given, protected, beyond };
+        let running = match device {
+            LoopDevice::Named(device) => on_device(&device, started)?,
+            LoopDevice::Recorded(numbers) => {
+                let none = || Refusal::File("the recording's device is damaged, or of another version".to_owned());
+                let Recorded { device, protection } = Recorded::of(&numbers).ok_or_else(none)?;
+                let device: &'static _ = Box::leak(Box::new(device));
+                started.on_protected(device, protection, &recommended::of(device).settings)?
+            }
+        };
         Ok(Self { running, last: Report::default() })
     }
 

@@ -15,8 +15,9 @@ const RESTS: u32 = 8;
 /// The period of a step, s. It matters to no law here: both take the gain that is certified.
 const PERIOD: f32 = 1e-3;
 
-/// Parameters at the end, steps, whether it rests, and steps until it is at the closest point; a row a start.
-pub type Ends = (Vec<[f32; 2]>, Vec<u32>, Vec<bool>, Vec<f64>);
+/// Parameters at the end, steps, whether it rests, and steps and evaluations until it is at the closest point; a row a
+/// start.
+pub type Ends = (Vec<[f32; 2]>, Vec<u32>, Vec<bool>, Vec<f64>, Vec<f64>);
 
 /// The closest point of a face, in double precision.
 pub struct Target<'a> {
@@ -62,7 +63,8 @@ pub fn settle(
             arrived = target.arrival(arrived, steps, at.parameters.map(f64::from));
             still = if step.outcome == Outcome::AtRest || before == at.parameters { still + 1 } else { 0 };
         }
-        (at.parameters, steps - still, still == RESTS, arrived)
+        // A step evaluates the face once.
+        (at.parameters, steps - still, still == RESTS, arrived, arrived)
     };
     starts.iter().map(end).collect()
 }
@@ -104,22 +106,33 @@ pub fn settle_baseline(method: Method, probe: DVec3, starts: &[[f64; 2]], most: 
         let (mut at, mut steps) = (start.map(|parameter| parameter.clamp(0.0, 1.0)), 0);
         let mut still = 0;
         let mut arrived = target.arrival(f64::NAN, steps, at);
+        let (mut spent, mut spent_until, mut is_stuck) = (0, 0, false);
         // In double precision eight small steps may be on the way: it goes on to the end.
         while steps < most {
-            match baseline.step(at, probe) {
+            let (advance, evaluations) = baseline.counted_step(at, probe);
+            spent += evaluations;
+            match advance {
                 // What single precision does not show is no progress here, as for the firmware's laws.
                 Advance::To(next) => {
                     let is_still = next.map(|parameter| parameter as f32) == at.map(|parameter| parameter as f32);
                     still = if is_still { still + 1 } else { 0 };
                     at = next;
                 }
-                Advance::Out(_) => return ([f32::NAN; 2], steps, false, f64::NAN),
-                Advance::Nowhere => return (at.map(|parameter| parameter as f32), steps - still, true, arrived),
+                Advance::Out(_) => return ([f32::NAN; 2], steps, false, f64::NAN, f64::NAN),
+                Advance::Nowhere => {
+                    is_stuck = true;
+                    break;
+                }
             }
             steps += 1;
+            let before = arrived;
             arrived = target.arrival(arrived, steps, at);
+            if before.is_nan() {
+                spent_until = spent;
+            }
         }
-        (at.map(|parameter| parameter as f32), steps - still, still >= RESTS, arrived)
+        let evaluations = if arrived.is_nan() { f64::NAN } else { f64::from(spent_until) };
+        (at.map(|parameter| parameter as f32), steps - still, still >= RESTS || is_stuck, arrived, evaluations)
     };
     starts.iter().map(end).collect()
 }

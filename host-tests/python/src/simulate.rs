@@ -1,6 +1,6 @@
 //! The simulated loop of `palpate sim`: a device in a hand, the servo loop, a body.
 
-use crate::devices::OnDevice;
+use crate::devices::{OnDevice, refused};
 use crate::refusal::Refusal;
 use glam::DVec3;
 use palpate::body::Body;
@@ -124,17 +124,13 @@ fn run_over<K: Kinematics<3>, S: Surface>(
         soft_start_s: wishes.soft_start,
         body_origin_m: wishes.origin.map_or_else(|| -middle(body), |origin| origin.as_vec3()),
     };
-    let [most_stiffness, most_damping] = [device.max_stiffness_n_per_m, device.max_damping_n_s_per_m];
-    let bound = |says: &dyn std::fmt::Display| {
-        Refusal::Settings(format!("{says}: this device takes up to {most_stiffness} N/m and {most_damping} N·s/m"))
-    };
     let rendering = if wishes.smooth { rendering } else { Rendering::PLAIN };
     let config = Config { settings, rendering, safety: SAFETY, ..Config::DEFAULT };
-    let servo = Servo::try_new(device, surface, config).map_err(|error| bound(&error))?;
+    let servo = Servo::try_new(device, surface, config).map_err(|error| refused(error, &settings, device))?;
     let mut plant = plant(device, simulated, body, settings.body_origin_m, wishes)?;
-    let refused = |says: &dyn std::fmt::Display| Refusal::Settings(says.to_string());
     let samples = if wishes.protected {
-        let servo = Servo::try_protected(device, surface, protection, config).map_err(|error| refused(&error))?;
+        let servo = Servo::try_protected(device, surface, protection, config)
+            .map_err(|error| refused(error, &settings, device))?;
         looped(&servo, &mut plant, wishes.rate, ticks as u32)
     } else {
         looped(&servo, &mut plant, wishes.rate, ticks as u32)
@@ -191,7 +187,7 @@ fn plant<K: Kinematics<3>>(
     let advice = |error: &dyn std::fmt::Display| Refusal::Settings(format!("{error} (move the model with `at`)"));
     let path = TouchingPath::within(surface, wishes.seconds, wishes.seed, has_room).map_err(|error| match error {
         PathError::NoRoom => advice(&error),
-        _ => Refusal::Settings(format!("the hand finds no path over the surface; move the model with --at over the surface; move the model with --at: {error}")),
+        _ => advice(&format_args!("the hand finds no path over the surface: {error}")),
     })?;
     Plant::new(simulated, HandSettings::default(), Box::new(path), f64::from(wishes.rate))
         .map_err(|error| advice(&error))

@@ -2,6 +2,7 @@
 
 import re
 import sys
+import warnings
 
 import numpy as np
 import palpate
@@ -81,7 +82,7 @@ def test_a_part_from_cad_is_baked():
         ([], "no patch"),
         ([{"degree": [1, 1]}], r"patches\[0\]: it has no points"),
         ([SQUARE, dict(SQUARE, colour="red")], r"patches\[1\]: there is no key \"colour\""),
-        ([dict(SQUARE, points=NOT_FINITE)], r"patches\[0\]: a number of its points is not finite"),
+        ([dict(SQUARE, points=NOT_FINITE)], r"patches\[0\]: points\[\d\]\[\d\]: NaN is not finite"),
         ([dict(SQUARE, points="far")], r"patches\[0\]: its points are not rows of rows"),
         ([dict(SQUARE, degree=[9, 1])], "patches: patch \"square\""),
         ([dict(SQUARE, degree=[-1, 1])], r"patches\[0\]: its degree"),
@@ -184,3 +185,47 @@ def test_a_long_bake_says_at_a_terminal_how_far_it_is_unless_it_is_to_be_silent(
     steps = [tuple(map(int, step)) for step in re.findall(r"\rbaking: (\d+) of (\d+) cells of space", said)]
     assert steps and said.endswith("\n") and said.count("\n") == 1, repr(said)
     assert all(0 < done <= of for done, of in steps)
+
+
+def box(low, high):
+    """The six faces of a box, each with its normal outwards."""
+    (a, b, c), (d, e, f) = low, high
+    corners = lambda *points: [list(points[:2]), list(points[2:])]
+    return [
+        {"degree": [1, 1], "points": corners(*face), "flip": True}
+        for face in (
+            ([a, b, c], [a, b, f], [a, e, c], [a, e, f]),
+            ([d, b, c], [d, e, c], [d, b, f], [d, e, f]),
+            ([a, b, c], [d, b, c], [a, b, f], [d, b, f]),
+            ([a, e, c], [a, e, f], [d, e, c], [d, e, f]),
+            ([a, b, c], [a, e, c], [d, b, c], [d, e, c]),
+            ([a, b, f], [d, b, f], [a, e, f], [d, e, f]),
+        )
+    ]
+
+
+def test_boxes_that_cut_each_other_are_named_as_a_flaw():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert palpate.Body.bake(box((0, 0, 0), (0.01, 0.01, 0.01))).flaws == []
+    cut = box((0, 0, 0), (0.01, 0.01, 0.01)) + box((0.005, 0.004, 0.003), (0.015, 0.014, 0.013))
+    with pytest.warns(UserWarning, match="cut each other"):
+        body = palpate.Body.bake(cut)
+    assert any("cut each other" in flaw for flaw in body.flaws)
+
+
+def test_a_face_or_a_count_of_steps_out_of_range_is_named():
+    body = palpate.Body.bake([SQUARE])
+    for face in (-1, 1):
+        with pytest.raises(IndexError, match=f"there is no face {face}; there are 1"):
+            body.evaluate(face, [[0.5, 0.5]])
+        with pytest.raises(IndexError, match=f"there is no face {face}; there are 1"):
+            body.pair(body, face=face)
+        with pytest.raises(IndexError, match=f"there is no face {face}; there are 1"):
+            body.tracker(start=(face, 0.5, 0.5))
+    with pytest.raises(palpate.ArrayError, match=r"parameters\[1\] lies outside of the face"):
+        body.evaluate(0, [[0.5, 0.5], [2, -1]])
+    with pytest.raises(palpate.SettingsError, match="most is -1"):
+        body.settle(0, (0, 0, 1), [[0.5, 0.5]], most=-1)
+    with pytest.raises(palpate.ArrayError, match=r"core is of shape \(2,\), and must be \(3,\)"):
+        body.tool([0.01, 0.01])

@@ -111,6 +111,21 @@ def test_no_change_steps_the_torque_by_more_than_a_millinewton_metre_a_tick(knob
     assert change > 0.02 and largest <= 1e-3
 
 
+def test_a_part_is_set_by_the_angle_that_is_read(knob):
+    # Two turns and half a radian away from where the table's end stops are.
+    knob.hold(2 * TAU + 0.5, seconds=1.0)
+    assert set(knob.read(0.2).turns) == {0}
+    knob.choose(4)
+    told = knob.read(0.2)
+    assert told.turns[-1] == 2 and abs(told.angle[-1] - 0.5) < 0.4 / 360 * TAU
+    rest = told.angle[-1] + 0.1
+    knob.damping(2e-4)
+    knob.spring(0.05, 0.02, rest)
+    told = knob.read(0.2)
+    assert abs(told.torque[-1] - 0.05 * (rest - told.angle[-1]) + 2e-4 * told.rate[-1]) < 1e-6
+    assert abs(held(knob, 0.3)[1].angle[-1] - 0.3) < 0.4 / 360 * TAU
+
+
 def test_reports_come_at_their_rate_with_detents_and_ends(knob):
     _, told = held(knob, 0.0)
     at = told.angle[-1]

@@ -4,6 +4,7 @@ import inspect
 import os
 import re
 import struct
+import subprocess
 import zlib
 
 import numpy as np
@@ -91,6 +92,48 @@ def test_a_pair_knows_both_models_frames():
     np.testing.assert_allclose(apart.second - away + [0, 0, 0.5], apart.first + [0, 0, 0.5], atol=1e-6)
 
 
+def test_a_tool_over_a_square_is_as_far_as_its_lowest_point(capped_box):
+    """Closed forms: a segment and a box turned about y over a plane, and a body in its model's frame."""
+    square = {"degree": [1, 1], "points": [[[-1, -1, 3], [-1, 1, 3]], [[1, -1, 3], [1, 1, 3]]]}
+    body = palpate.Body.bake([square])
+    angles = np.linspace(0.0, 1.5, 31)
+    turned = np.stack([np.cos(angles / 2), 0 * angles, np.sin(angles / 2), 0 * angles], axis=1)
+    origins = np.array([0.1, -0.2, 3.4]) + np.outer(angles, [0.01, 0.0, 0.0])
+    segment, brick = 0.1 * np.cos(angles), 0.1 * np.sin(angles) + 0.02 * np.cos(angles)
+    for tool, reach in (
+        (body.tool(), 0.0 * angles),
+        (body.tool(0.1, 0.03), segment + 0.03),
+        (body.tool([0.1, 0.05, 0.02]), brick),
+    ):
+        for found, status in ((tool.locate(origins, turned), "converged"), (tool.step(origins, turned), "tracking")):
+            # 2e-6 of the square's side.
+            np.testing.assert_allclose(found.distance, 0.4 - reach, atol=4e-6)
+            assert set(found.status) == {status} and found.evaluations.min() > 0
+            np.testing.assert_allclose(found.on_body[:, 2], 3.0, atol=1e-6)
+    # The capped box, 60 mm long over its model's z = 0: as it is, then with x pointing down.
+    boxed = body.tool(capped_box, 0.002)
+    for found in (boxed.locate, boxed.step):
+        pairs = found([[0.1, 0.2, 3.1]] * 2, [[1, 0, 0, 0], [0.5**0.5, 0, 0.5**0.5, 0]])
+        np.testing.assert_allclose(pairs.distance, [0.098, 0.038], atol=4e-6)
+        np.testing.assert_allclose([pairs.on_core[0, 2], pairs.on_core[1, 0]], [0.0, 0.06], atol=1e-6)
+
+
+def test_a_tool_that_cannot_be_is_refused(capped_box):
+    with pytest.raises(palpate.SettingsError, match="half lengths must be 0 to 1e6 m"):
+        capped_box.tool(-0.1)
+    with pytest.raises(palpate.SettingsError, match="radius: must be 0 to 1e6 m"):
+        capped_box.tool(0.1, float("nan"))
+    with pytest.raises(palpate.ArrayError, match="core"):
+        capped_box.tool([0.1, 0.2])
+    with pytest.raises(palpate.SettingsError, match="certified convex"):
+        capped_box.tool(palpate.Body.bake("teapot"))
+    tool = capped_box.tool(0.01)
+    with pytest.raises(palpate.ArrayError, match=r"quaternions\[1\] has length 2"):
+        tool.step([[0, 0, 1]] * 2, [[1, 0, 0, 0], [2, 0, 0, 0]])
+    with pytest.raises(palpate.ArrayError, match="origins has 2 rows, and quaternions 1"):
+        tool.locate([[0, 0, 1]] * 2, [[1, 0, 0, 0]])
+
+
 def test_a_simulated_run_is_the_demo_of_the_readme(capped_box):
     run = palpate.simulate("woodenhaptics-2016", capped_box)
     assert f"state hash           {run.state_hash}" in (ROOT / "README.md").read_text()
@@ -166,8 +209,9 @@ def test_settings_reach_the_loop(capped_box):
 @pytest.mark.parametrize(
     ("options", "says"),
     [
-        ({"stiffness": 1e9}, "stiffness"),
-        ({"damping": -1}, "damping"),
+        ({"stiffness": 1e5}, "stiffness = 100000: this device takes 0 to [0-9]+ N/m"),
+        ({"damping": -1}, "damping = -1: this device takes 0 to [0-9]+ N·s/m"),
+        ({"velocity_corner": -1}, "velocity_corner = -1: "),
         ({"rate": float("nan")}, "ticks"),
         ({"seconds": 0}, "ticks"),
         ({"seconds": 1e12}, "ticks"),
@@ -178,11 +222,16 @@ def test_settings_reach_the_loop(capped_box):
 def test_what_a_device_cannot_is_refused_by_name(options, says, capped_box):
     with pytest.raises(palpate.SettingsError, match=says):
         palpate.simulate("falcon", capped_box, **options)
+    if not {"seconds", "at"} & set(options) and says != "ticks":
+        with pytest.raises(palpate.SettingsError, match=says):
+            palpate.Loop("falcon", capped_box, **options)
 
 
 def test_unknown_devices_and_places_that_are_none_are_refused(capped_box):
     with pytest.raises(palpate.SettingsError, match="there is no device \"hapkit\"; there are woodenhaptics-2016"):
         palpate.simulate("hapkit", capped_box)
+    with pytest.raises(palpate.SettingsError, match="arm.urdf: a device file ends in .toml"):
+        palpate.simulate("arm.urdf", capped_box)
     with pytest.raises(palpate.ArrayError, match=r"at\[0\] is not finite"):
         palpate.simulate("falcon", capped_box, at=(0, 0, np.nan))
     with pytest.raises(TypeError, match="colour"):
@@ -256,15 +305,78 @@ def test_the_loop_by_itself_is_the_loop_of_a_run(capped_box):
     assert loop.fault == 0 and loop.phase == 3
 
 
+def flat_wall(side=0.1):
+    return palpate.Body.bake([{"degree": [1, 1], "points": [[[-side, -side, 0], [-side, side, 0]], [[side, -side, 0], [side, side, 0]]]}])
+
+
+def test_a_loop_takes_the_settings_that_are_recommended_for_its_device(tmp_path):
+    for most, stiffness in ((380.0, 380.0), (900.0, 500.0)):
+        path = device_file(tmp_path, wall=("max_stiffness = 1000.0", f"max_stiffness = {most}"))
+        plant, loop = palpate.Plant(palpate.Device(path), [0, 0, 0.004]), palpate.Loop(path, flat_wall())
+        for _ in range(4_000):
+            plant.advance(loop.tick(plant.counts), [0, 0, -0.006], stiffness=300.0, damping=20.0)
+        assert loop.force[2] == pytest.approx(stiffness * -loop.gap, rel=1e-3) and loop.force[2] > 1
+        with pytest.raises(palpate.SettingsError, match=f"stiffness = {most + 1:.0f}: this device takes 0 to {most:.0f} N/m"):
+            palpate.Loop(path, flat_wall(), stiffness=most + 1)
+
+
+def bridged(folder):
+    """An arm on bridges, and no counterweight beside the rods of 100 g."""
+    path = device_file(folder, masses=("[0.15229268, 0.04085714]", "[0.15, 0.05]"))
+    text = re.sub("(?m)^inertia = .*\n", "", path.read_text())
+    bridge = "bridge = { supply = 24.0, resistance = 0.7, inductance = 0.00012, back_emf_share = 0.8 }"
+    path.write_text(text.replace("[joint.motor]\n", f"[joint.motor]\n{bridge}\n"))
+    return path
+
+
+def test_the_numbers_of_a_device_file_are_those_of_its_preset(tmp_path):
+    for name in palpate.devices():
+        path = tmp_path / "own.toml"
+        subprocess.run([os.environ["PALPATE_TOOL"], "device", name, "--out", path], check=True, capture_output=True)
+        ours, theirs = palpate.Device(path).numbers(), palpate.Device(name).numbers()
+        assert set(ours) == set(theirs)
+        for key in ("centre", "depth", "legs", "gravity", "coulomb", "time_constant"):
+            assert np.allclose(ours.get(key, 0), theirs.get(key, 0), atol=1e-7), key
+    numbers = palpate.Device(bridged(tmp_path)).numbers()
+    assert np.allclose(numbers["time_constant"], 0.00012 / 0.7) and np.allclose(numbers["balance"], 0)
+
+
+def test_a_bridge_loses_its_back_emf(tmp_path):
+    device, rates = palpate.Device(bridged(tmp_path)), np.array([2.0, -1.0, 0.5])
+    # Volts over ohms, by the torque constant at the joint.
+    constants = 0.0259 * np.array([16, -12, 12])
+    currents = (24.0 * np.array([1000, -2000, 300]) / 32767 - constants * rates) / 0.7
+    assert np.allclose(device.torques([1000, -2000, 300], rates), currents * constants)
+
+
+def test_an_arm_on_bridges_moves_in_mujoco_as_on_the_own_plant(tmp_path, monkeypatch):
+    monkeypatch.syspath_prepend(str(ROOT / "host-tests/mujoco"))
+    import plants
+
+    device, start = palpate.Device(bridged(tmp_path)), [0, 0, 0.01]
+    heights = []
+    for plant in (plants.wooden_haptics(device, start), palpate.Plant(device, start)):
+        loop = palpate.Loop(device.name, flat_wall())
+        heights.append([])
+        for tick in range(4000):
+            aim = [0, 0, 0.01 * np.cos(2 * np.pi * tick / 2000)]
+            plant.advance(loop.tick(plant.counts), aim, stiffness=1000.0, damping=20.0)
+            heights[-1].append(plant.position[2])
+        assert loop.fault == 0
+    apart = np.abs(np.subtract(*heights)).max()
+    print(f"an arm on bridges: {apart * 1e6:.0f} µm apart")
+    # A count of the encoders is 58 µm.
+    assert apart < 58e-6
+
+
 def test_a_wall_holds_the_own_plant_by_its_spring():
-    side = 0.1
-    wall = palpate.Body.bake([{"degree": [1, 1], "points": [[[-side, -side, 0], [-side, side, 0]], [[side, -side, 0], [side, side, 0]]]}])
+    wall = flat_wall()
     device = palpate.Device("falcon")
     plant, loop = palpate.Plant(device, [0, 0, 0.004]), palpate.Loop("falcon", wall)
     for _ in range(6_000):
         plant.advance(loop.tick(plant.counts), [0, 0, -0.01], stiffness=1000.0, damping=20.0)
     # The loop knows the depth by its encoders: 16 µm of 3 mm, and friction holds the probe off its rest.
-    assert loop.force[2] == pytest.approx(500.0 * -plant.position[2], rel=0.02)
+    assert loop.force[2] == pytest.approx(400.0 * -plant.position[2], rel=0.02)
     assert np.allclose(device.pose(device.angles(plant.position))[0], plant.position, atol=1e-7)
     with pytest.raises(palpate.SettingsError):
         palpate.Loop("falcon", wall, stiffness=1e5)

@@ -38,6 +38,26 @@ def test_a_recording_is_the_run_and_its_loop_gives_the_forces_again(recorded, ca
     assert np.abs(truth.force).max() > 0.1
 
 
+@pytest.mark.parametrize("options", [(), ("--protected",)])
+def test_a_recording_carries_its_device_and_protection(options, capped_box, tmp_path):
+    tool, device, path = os.environ["PALPATE_TOOL"], tmp_path / "lab-arm.toml", tmp_path / "run.json"
+    subprocess.run([tool, "device", "polhem-v2", "--out", device], check=True, capture_output=True)
+    device.write_text(device.read_text().replace('"polhem-v2"', '"lab-arm"'))
+    command = [tool, "sim", "--device", device, "--seconds", "0.5", "--recording", path, *options]
+    subprocess.run(command, check=True, capture_output=True)
+    truth = palpate.simulate(device, capped_box, seconds=0.5, protected=bool(options))
+    device.unlink()
+    run = palpate.Recording.load(path)
+    loop, forces = run.loop(), []
+    for counts, enable in zip(run.counts.tolist(), run.enable.tolist()):
+        loop.tick(counts, enable)
+        forces.append(loop.force)
+    assert (run.device, run.state_hash) == ("lab-arm", truth.state_hash)
+    same_bits(np.array(forces, dtype=np.float32), truth.force)
+    with pytest.raises(palpate.FileError, match="the recording's device is damaged"):
+        run._replace(device_numbers=run.device_numbers[:-1]).loop()
+
+
 def test_counts_that_wrap_are_read(recorded, tmp_path):
     from base64 import b64encode
 

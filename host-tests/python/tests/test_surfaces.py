@@ -111,6 +111,10 @@ def test_arrived_counts_the_steps_until_the_closest_point_is_near_for_good(law):
     off = np.array([np.linalg.norm(spline.evaluate(end.astype(float)) - spline.evaluate(foot), axis=1) for end in ends])
     last_far = [np.flatnonzero(column > tolerance * body.size).max(initial=-1) for column in off.T]
     np.testing.assert_array_equal(settled.arrived, np.add(last_far, 1))
+    # One a step; at least one more for the length of a projected step.
+    a_step = 2 if law.startswith("projected") else 1
+    assert (settled.evaluations >= a_step * settled.arrived).all()
+    assert a_step == 2 or (settled.evaluations == settled.arrived).all()
     assert settled.arrived[0] == 0 < settled.arrived[1] <= settled.arrived[2] < most
     assert law not in ("second-order", "newton") or settled.arrived.max() < 12
     # With one step fewer than it takes it is never there.

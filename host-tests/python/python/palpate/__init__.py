@@ -12,15 +12,19 @@ threads run.
 ((1,), (1, 3))
 """
 
+from importlib.metadata import version as _version
+
 from ._native import ArrayError, FileError, LinkError, ModelError, SettingsError
-from .bodies import Body, Pair, Tracker
+from .bodies import Body, Pair, ToolTracker, Tracker
 from .knob import Knob
 from .loops import Link, devices, simulate
 from .outside import Outside
 from .recordings import Recording
-from .results import Apart, Closest, Curved, Dials, Records, Run, Settled, Ticks, Turned
+from .results import Apart, Closest, Curved, Dials, Records, Run, Settled, Ticks, ToolPairs, Turned
 from .rig import Device, Loop, Plant
 from .surfaces import patch_of
+
+__version__ = _version("palpate")
 
 __all__ = [
     "Apart",
@@ -45,6 +49,8 @@ __all__ = [
     "Settled",
     "SettingsError",
     "Ticks",
+    "ToolPairs",
+    "ToolTracker",
     "Tracker",
     "Turned",
     "devices",

@@ -20,6 +20,7 @@ __all__ = [
     "Pair",
     "Plant",
     "SettingsError",
+    "ToolTracker",
     "Tracker",
     "devices",
     "simulate",
@@ -49,6 +50,8 @@ class Body:
     def name(self) -> str: ...
     @property
     def patches(self) -> list[str]: ...
+    @property
+    def flaws(self) -> list[str]: ...
     @property
     def faces(self) -> int: ...
     @property
@@ -91,9 +94,12 @@ class Body:
         law_name: str,
         most: int,
         tolerance: float,
-    ) -> tuple[NDArray[np.float32], NDArray[np.uint32], NDArray[np.bool_], NDArray[np.float64]]: ...
+    ) -> tuple[
+        NDArray[np.float32], NDArray[np.uint32], NDArray[np.bool_], NDArray[np.float64], NDArray[np.float64]
+    ]: ...
     def tracker(self, law: str, start: tuple[int, float, float] | None) -> Tracker: ...
     def pair(self, other: Body, face: int, other_face: int) -> Pair: ...
+    def tool(self, half: tuple[float, float, float], core: Body | None, radius: float) -> ToolTracker: ...
 
 @final
 class Tracker:
@@ -115,6 +121,13 @@ class Pair:
     def step(
         self, origins: NDArray[np.float64], axes_of: NDArray[np.float64], steps: int
     ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float32]]: ...
+
+_Pairs = tuple[NDArray[np.float32], NDArray[np.float64], NDArray[np.float64], NDArray[np.uint32], list[str]]
+
+@final
+class ToolTracker:
+    def locate(self, origins: NDArray[np.float64], quaternions: NDArray[np.float64]) -> _Pairs: ...
+    def step(self, origins: NDArray[np.float64], quaternions: NDArray[np.float64]) -> _Pairs: ...
 
 @final
 class Link:
@@ -145,21 +158,21 @@ class Device:
     def pose(self, angles: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
     def angles(self, places: NDArray[np.float64]) -> NDArray[np.float64]: ...
     def counts(self, angles: tuple[float, ...]) -> list[int]: ...
-    def torques(self, duties: Sequence[int]) -> list[float]: ...
+    def torques(self, duties: Sequence[int], rates: tuple[float, ...]) -> list[float]: ...
     def numbers(self) -> str: ...
 
 @final
 class Loop:
     def __new__(
         cls,
-        device: str | PathLike[str],
+        device: str | PathLike[str] | Sequence[float],
         body: Body,
         *,
         rate: float,
-        stiffness: float,
-        damping: float,
-        max_force: float,
-        velocity_corner: float,
+        stiffness: float | None,
+        damping: float | None,
+        max_force: float | None,
+        velocity_corner: float | None,
         soft_start: float,
         smooth: bool,
         protected: bool,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import warnings
 from os import PathLike
 from typing import Any, Mapping, Sequence
 
@@ -10,9 +11,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from .results import Apart, Closest, Curved, Settled, Ticks
+from .results import Apart, Closest, Curved, Settled, Ticks, ToolPairs
 from .rows import row, rows
 from .surfaces import is_surface, patch_of
+
+
+def _within(what: str, parameters: NDArray[np.float64]) -> NDArray[np.float64]:
+    # Numbers that are none are refused behind this, by their own words.
+    outside = ((parameters < 0.0) | (parameters > 1.0)).any(axis=1)
+    if outside.any():
+        raise _native.ArrayError(f"{what}[{int(outside.argmax())}] lies outside of the face: give 0 to 1")
+    return parameters
 
 
 class Body:
@@ -52,7 +61,7 @@ class Body:
 
         Raises ModelError for what is no body and for a fault of its modes, FileError for a spoiled ``.palp``,
         SettingsError for another margin, or one for a ``.palp``, FileNotFoundError and its like for a path that cannot
-        be read; each names the culprit.
+        be read; each names the culprit. Warns of each of its `flaws`.
 
         >>> import palpate
         >>> square = {"degree": [1, 1], "points": [[[0, 0, 0], [0, 4, 0]], [[6, 0, 0], [6, 4, 0]]]}
@@ -72,10 +81,13 @@ class Body:
             print(f"\rbaking: {done} of {of} cells of space".ljust(60), end="", file=sys.stderr, flush=True)
 
         try:
-            return Body(_native.Body.bake(model, tolerance, unit, modes, margin, tell if is_shown else None))
+            body = Body(_native.Body.bake(model, tolerance, unit, modes, margin, tell if is_shown else None))
         finally:
             if told:
                 print(file=sys.stderr)
+        for flaw in body.flaws:
+            warnings.warn(f"{body.name or 'model'}: {flaw}", stacklevel=2)
+        return body
 
     @staticmethod
     def load(path: str | PathLike[str]) -> Body:
@@ -124,9 +136,9 @@ class Body:
     def evaluate(self, face: int, parameters: ArrayLike) -> Curved:
         """Points of a face at `parameters`, (n, 2), 0 to 1, with their first and second derivatives.
 
-        Raises IndexError where there is no such face, ArrayError as `closest` does.
+        Raises IndexError where there is no such face, ArrayError as `closest` does, and beyond the face.
         """
-        return Curved(*self._native.evaluate(face, rows("parameters", parameters, 2)))
+        return Curved(*self._native.evaluate(self._face(face), _within("parameters", rows("parameters", parameters, 2))))
 
     def settle(
         self,
@@ -150,24 +162,47 @@ class Body:
         On rational patches with unequal weights the bounds of both laws are wider: "certified" may take hundreds of
         times the steps, "second-order" twenty times. Give a larger `most` there.
 
-        Raises SettingsError for another law, and for a tolerance that is not above 0.
+        Raises IndexError where there is no such face, SettingsError for another law, for a number of steps out of
+        range, and for a tolerance that is not above 0.
         """
         place = row("probe", probe, 3)
-        return Settled(*self._native.settle(face, place, rows("starts", starts, 2), law, most, tolerance))
+        if not 0 <= most < 2**32:
+            raise _native.SettingsError(f"most is {most}: give 0 to 4294967295 steps")
+        at = _within("starts", rows("starts", starts, 2))
+        return Settled(*self._native.settle(self._face(face), place, at, law, most, tolerance))
+
+    def _face(self, face: int) -> int:
+        if not 0 <= face < self.faces:
+            raise IndexError(f"there is no face {face}; there are {self.faces}")
+        return face
 
     def tracker(self, *, law: str = "second-order", start: tuple[int, float, float] | None = None) -> Tracker:
         """A tracker that knows nothing yet, or whose witness point lies at `start`: a face and (u, v) on it.
 
-        Raises SettingsError for a body with modes.
+        Raises SettingsError for a body with modes, IndexError where there is no such face, ArrayError beyond it.
         """
+        if start is not None:
+            [(u, v)] = _within("start", rows("start", start[1:], 2)).tolist()
+            start = self._face(start[0]), u, v
         return Tracker(self._native.tracker(law, start))
 
     def pair(self, other: Body, face: int = 0, other_face: int = 0) -> Pair:
         """The closest pair of a face of this body and one of another; both begin in the middle of their faces.
 
-        Raises SettingsError for a body with modes.
+        Raises SettingsError for a body with modes, IndexError where there is no such face.
         """
-        return Pair(self._native.pair(other._native, face, other_face))
+        return Pair(self._native.pair(other._native, self._face(face), other._face(other_face)))
+
+    def tool(self, core: float | Sequence[float] | Body = 0.0, radius: float = 0.0) -> ToolTracker:
+        """The closest pairs of this body and a tool: a convex core, and the radius of a ball around it, m.
+
+        `core`: 0 for a point; half the length of a segment along the tool's z, m; half the sides of a box, (3,), m; or a
+        convex Body. Raises SettingsError for a length that is none, a core that is not convex, a body with modes.
+        """
+        if isinstance(core, Body):
+            return ToolTracker(self._native.tool((0.0, 0.0, 0.0), core._native, radius))
+        x, y, z = row("core", (0.0, 0.0, core) if isinstance(core, (int, float)) else core, 3)
+        return ToolTracker(self._native.tool((x, y, z), None, radius))
 
     @property
     def name(self) -> str:
@@ -178,6 +213,12 @@ class Body:
     def patches(self) -> list[str]:
         """What the model's patches are called."""
         return self._native.patches
+
+    @property
+    def flaws(self) -> list[str]:
+        """Patches that cut each other, pieces within others and gaps, as ``palpate check`` finds them: signs and forces are
+        wrong near them."""
+        return self._native.flaws
 
     @property
     def faces(self) -> int:
@@ -265,6 +306,36 @@ class Pair:
         if turned.shape != (count, 3, 3):
             raise _native.ArrayError(f"axes is of shape {turned.shape}, and must be ({count}, 3, 3)")
         return Apart(*self._native.step(places, turned.reshape(count, 9), steps))
+
+
+class ToolTracker:
+    """The closest pairs of a body and a tool, as `palpate pair` writes them."""
+
+    __slots__ = ("_native",)
+
+    def __init__(self, native: _native.ToolTracker):
+        """Trackers of tools come from `Body.tool`."""
+        self._native = native
+
+    def locate(self, origins: ArrayLike, quaternions: ArrayLike) -> ToolPairs:
+        """Cold, each pose by itself: `origins`, (n, 3), m, and `quaternions`, (n, 4), w first, of unit length.
+
+        They take the tool's frame to the body's model. Raises ArrayError for others.
+        """
+        return _tool_pairs(self._native.locate, origins, quaternions)
+
+    def step(self, origins: ArrayLike, quaternions: ArrayLike) -> ToolPairs:
+        """One tick a pose; it goes on where the last call ended. The first pose, and one after a jump, is cold."""
+        return _tool_pairs(self._native.step, origins, quaternions)
+
+
+def _tool_pairs(query: Any, origins: ArrayLike, quaternions: ArrayLike) -> ToolPairs:
+    places = rows("origins", origins, 3)
+    turns = rows("quaternions", quaternions, 4)
+    if len(places) != len(turns):
+        raise _native.ArrayError(f"origins has {len(places)} rows, and quaternions {len(turns)}")
+    distance, on_body, on_core, evaluations, status = query(places, turns)
+    return ToolPairs(distance, on_body, on_core, evaluations, np.array(status, dtype=np.str_))
 
 
 def _plain(patch: Any) -> Any:

@@ -73,9 +73,11 @@ class Knob:
         """A spring to `rest`, rad; `stiffness`, N·m/rad, up to `max_torque`, N·m."""
         self._native.feel("spring", (stiffness, max_torque, rest))
 
-    def ends(self, low: float, high: float, stiffness: float, damping: float = 1e-3) -> None:
-        """End stops at `low` and `high`, rad; `stiffness`, N·m/rad, and `damping`, N·m·s/rad, beyond them."""
-        self._native.feel("ends", (low, high, stiffness, damping))
+    def ends(self, low: float, high: float, stiffness: float, damping: float | None = None) -> None:
+        """End stops at `low` and `high`, rad; `stiffness`, N·m/rad, and `damping`, N·m·s/rad, beyond them, by default
+        0.001 or as much as they need."""
+        own = () if damping is None else (damping,)
+        self._native.feel("ends", (low, high, stiffness, *own))
 
     def damping(self, damping: float) -> None:
         """Damping everywhere, N·m·s/rad; 0 for none."""

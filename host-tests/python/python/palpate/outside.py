@@ -16,7 +16,8 @@ class Outside:
 
     `motors` are the joints that the encoders read, as three rows of numbers that multiply qpos; `centre` is where the
     device's frame lies in the model, m. The model has a body and a site ``tip``, whose place and velocity are its first
-    sensors, and an actuator for each motor that takes its torque, N·m.
+    sensors, and an actuator for each motor that takes the torque of `Device.torques`, N·m, back-EMF of a bridge included,
+    and follows it with the ``time_constant`` of `Device.numbers`.
     """
 
     def __init__(
@@ -38,7 +39,7 @@ class Outside:
         self.data: Any = mujoco.MjData(self.model)
         self.motors, self.centre = np.array(motors, dtype=float), np.array(centre, dtype=float)
         self.tip = self.model.body("tip").id
-        self.underway = np.zeros(3)
+        self.underway: Sequence[int] = [0, 0, 0]
 
     def close(self, angles: ArrayLike, guess: NDArray[np.float64] | None = None) -> None:
         """Puts the motors at these angles and closes the loops by Newton's method on MuJoCo's own constraints."""
@@ -53,7 +54,7 @@ class Outside:
             data.qpos[:] -= step
             if np.abs(step).max() < 1e-13:
                 break
-        data.qvel[:], data.act[:], self.underway = 0, 0, np.zeros(3)
+        data.qvel[:], data.act[:], self.underway = 0, 0, [0, 0, 0]
         self._mujoco.mj_forward(self.model, data)
 
     def spread(self) -> NDArray[np.float64]:
@@ -106,8 +107,9 @@ class Outside:
         """A servo period in a hand, as `Plant.advance`. Duties act a period late, as those of a real loop."""
         data, wanted = self.data, np.asarray(aim, dtype=float) + self.centre
         speed = np.asarray(velocity, dtype=float)
-        data.ctrl[:], self.underway = self.underway, np.array(self.device.torques(duties))
+        acting, self.underway = self.underway, list(duties)
         for step in range(self.steps):
+            data.ctrl[:] = self.device.torques(acting, self.motors @ data.qvel)
             place, moving = data.sensordata[:3], data.sensordata[3:6]
             ahead = wanted + speed * (step * self.period / self.steps)
             data.xfrc_applied[self.tip, :3] = stiffness * (ahead - place) + damping * (speed - moving)

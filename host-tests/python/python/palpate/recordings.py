@@ -31,6 +31,7 @@ class Recording(NamedTuple):
     time_s : (n,) float64
     counts : (n, 3) int32 -- encoder counts.
     enable : (n,) bool -- whether force is requested.
+    device_numbers : (k,) float32 -- the device, and its protection if the run had it, for `Loop`.
     bodies : name and file (``.palp``) of each body.
     is_scene : whether the bodies are those of a scene.
 
@@ -57,6 +58,7 @@ class Recording(NamedTuple):
     time_s: NDArray[np.float64]
     counts: NDArray[np.int32]
     enable: NDArray[np.bool_]
+    device_numbers: NDArray[np.float32]
     bodies: list[tuple[str, bytes]]
     is_scene: bool
 
@@ -83,16 +85,19 @@ class Recording(NamedTuple):
             return Body.load(path)
 
     def loop(self, device: str | PathLike[str] | None = None, *, protected: bool = False) -> Loop:
-        """The loop of the run, before its first tick. `device` is the file of one's own; `protected` as the run was.
+        """The loop of the run, before its first tick, on the recorded device and as protected as it was; or on another
+        `device` by name or file, `protected` or not.
 
-        Raises SettingsError for a scene and for an eased rendering.
+        Raises SettingsError for a scene, for an eased rendering, and for `protected` without a device.
         """
         if self.is_scene or self.rendering == "eased":
             what = "a scene" if self.is_scene else "an eased rendering"
             raise SettingsError(f"{what} cannot be computed again from Python: use palpate view --recording")
+        if device is None and protected:
+            raise SettingsError("protected: the recorded device is as protected as it was; give a device as well")
         body = self.body()
         return Loop(
-            self.device if device is None else device,
+            self.device_numbers.tolist() if device is None else device,
             body,
             rate=self.rate_hz,
             stiffness=self.stiffness_n_per_m,
@@ -128,6 +133,7 @@ def _read(found: Any) -> Recording:
         time_s=np.arange(ticks) / float(rate),
         counts=_counts(b64decode(found["counts"], validate=True), ticks),
         enable=np.arange(ticks) >= found["enable_at"],
+        device_numbers=np.frombuffer(b64decode(found["device_numbers"], validate=True), dtype="<f4"),
         bodies=[(body["name"], b64decode(body["file"], validate=True)) for body in found["bodies"]],
         is_scene=found["scene"] is not None,
     )

@@ -14,7 +14,8 @@ class Closest(NamedTuple):
     patch : (n,) uint32 -- index of the model's patch, see `Body.patches`.
     parameters : (n, 2) float64 -- (u, v) on that patch, 0 to 1.
     point : (n, 3) float64 -- the point, m, in the frame of the model. Along the surface it was up to 8e-4 sizes off
-        on golden probes, where the distance hardly changes: four ticks of a `Body.tracker` at rest leave 2e-7.
+        on golden probes, where the distance hardly changes: four ticks of a `Body.tracker` at rest leave 2e-7
+        on convex patches.
     gap : (n,) float64 -- the distance, m; negative inside a closed body, unless it was asked for without a sign.
     face : (n,) uint32 -- index of the body's face; a patch may be several.
     on_face : (n, 2) float32 -- (u, v) on the face, as the firmware has them.
@@ -24,7 +25,7 @@ class Closest(NamedTuple):
         proved to hold the closest point from there, even if `complete`. `Body.bake` with a larger `margin` reaches it.
     clamped : (n,) bool -- whether a q was beyond its budget, and was set to it.
     error_bound : (n,) float64 -- how much nearer another point of the stored single-precision tables may be, m, proved;
-        NaN unless asked for. The surface of your double-precision numbers may be some 6e-8 sizes nearer.
+        NaN unless asked for. The surface of your double-precision numbers may be some 1e-7 sizes nearer.
     """
 
     patch: NDArray[np.uint32]
@@ -90,18 +91,20 @@ class Settled(NamedTuple):
 
     parameters : (n, 2) float32 -- (u, v) at the end.
     steps : (n,) uint32 -- steps up to the last that moved it in single precision, of every law alike; `most` where the
-        last bits never rest, usual in single precision: compare laws by `arrived`. A step
-        evaluates the face once; those of the projected laws again for each halving.
+        last bits never rest, usual in single precision: compare laws by `arrived`.
     rests : (n,) bool -- whether its last eight steps did not move it in single precision, which takes eight. A method in
         double precision also rests where it has no step to take: at a minimum, or where Newton's matrix is singular.
     arrived : (n,) float64 -- steps until the point is within the tolerance of the face's closest point (found in double
         precision) and stays there to the end, of every law alike; NaN where it never is, or left the face.
+    evaluations : (n,) float64 -- evaluations of the face until then: one a step; those of the projected laws evaluate
+        again for each length tried.
     """
 
     parameters: NDArray[np.float32]
     steps: NDArray[np.uint32]
     rests: NDArray[np.bool_]
     arrived: NDArray[np.float64]
+    evaluations: NDArray[np.float64]
 
 
 class Apart(NamedTuple):
@@ -117,17 +120,37 @@ class Apart(NamedTuple):
     distance: NDArray[np.float32]
 
 
+class ToolPairs(NamedTuple):
+    """The closest pair of a body and a tool, a row a pose.
+
+    distance : (n,) float32 -- of body and core, less the tool's radius, m.
+    on_body : (n, 3) float64 -- on the body, in its model's frame, m.
+    on_core : (n, 3) float64 -- on the tool's core, in the tool's frame, m.
+    evaluations : (n,) uint32 -- evaluations of patches spent.
+    status : (n,) str -- "converged" (cold) or "tracking"; "inside": body and core intersect: between smooth convex
+        bodies the core's distance is minus the depth, otherwise the depth is at least minus it; "behind": the points
+        rest on the far side of a convex body; "step-limit": stopped short.
+    """
+
+    distance: NDArray[np.float32]
+    on_body: NDArray[np.float64]
+    on_core: NDArray[np.float64]
+    evaluations: NDArray[np.uint32]
+    status: NDArray[np.str_]
+
+
 class Dials(NamedTuple):
     """A knob's dial, a row a report: 100 a second.
 
     tick : (n,) uint32 -- the servo tick.
-    angle : (n,) float64 -- with whole turns, rad.
+    angle : (n,) float64 -- by which the parts of the feel are set, rad.
     rate : (n,) float32 -- rad/s.
     torque : (n,) float32 -- of the feel, N·m, before soft start and limits.
     feel : (n,) uint8 -- the active feel: an index of the knob's table, or the one after it for yours.
     detent : (n,) int32 -- number of the nearest detent: a change is a detent that was passed.
     end : (n,) int8 -- -1 below the end stops, 1 above them, 0 between.
     kept : (n,) uint8 -- the stored feel at the last reset: 0 none, 1 used, 2 damaged or beyond the motor.
+    turns : (n,) int32 -- whole turns that `angle` and `detent` do not count: ``tau * turns + angle`` never jumps.
     """
 
     tick: NDArray[np.uint32]
@@ -138,6 +161,7 @@ class Dials(NamedTuple):
     detent: NDArray[np.int32]
     end: NDArray[np.int8]
     kept: NDArray[np.uint8]
+    turns: NDArray[np.int32]
 
 
 class Turned(NamedTuple):

@@ -48,12 +48,19 @@ class Device:
         """What sound encoders read at joint angles, (3,)."""
         return self._native.counts(row("angles", angles, 3))
 
-    def torques(self, duties: Sequence[int]) -> list[float]:
-        """The torques at the joints, N·m, that the motors aim at under these duties."""
-        return self._native.torques(duties)
+    def torques(self, duties: Sequence[int], rates: ArrayLike = (0.0, 0.0, 0.0)) -> list[float]:
+        """The torques at the joints, N·m, that the motors aim at under these duties, at joint rates, (3,), rad/s: a motor
+        on a bridge loses its back-EMF.
+        """
+        return self._native.torques(duties, row("rates", rates, 3))
 
     def numbers(self) -> dict[str, Any]:
-        """Lengths, masses, friction and stops of the simulated device, in SI units. SettingsError where there are none."""
+        """Lengths, masses, friction and stops of the simulated device, in SI units.
+
+        Of each joint: `rotors`, inertia that turns with it alone; `viscous` and `coulomb` friction; `time_constant` with
+        which a motor's torque follows `torques`, L/R of one on a bridge; `stops`. `balance` of an arm: static moments,
+        kg·m, that counterweights add to its links.
+        """
         numbers: dict[str, Any] = json.loads(self._native.numbers())
         return numbers
 
@@ -65,21 +72,22 @@ class Loop:
 
     def __init__(
         self,
-        device: str | PathLike[str],
+        device: str | PathLike[str] | Sequence[float],
         body: Body,
         *,
         rate: float = 4000.0,
-        stiffness: float = 500.0,
-        damping: float = 2.0,
-        max_force: float = 5.0,
-        velocity_corner: float = 80.0,
+        stiffness: float | None = None,
+        damping: float | None = None,
+        max_force: float | None = None,
+        velocity_corner: float | None = None,
         soft_start: float = 0.1,
         smooth: bool = True,
         protected: bool = False,
         beyond: bool = False,
         at: ArrayLike = (0.0, 0.0, 0.0),
     ):
-        """`at` is where the model's origin lies in the device's frame, m; the others are as in `simulate`.
+        """`at` is where the model's origin lies in the device's frame, m; the others are as in `simulate`. `device` may be
+        that of a recording, which has its own protection or none.
 
         `smooth` is the recommended rendering; without it the force is spring and damper alone. `beyond` lifts the
         device's limits of stiffness and damping, to find where a simulated one becomes unstable. Raises SettingsError

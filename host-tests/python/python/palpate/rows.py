@@ -8,10 +8,10 @@ from numpy.typing import ArrayLike, NDArray
 from ._native import ArrayError
 
 
-def rows(what: str, array: ArrayLike, width: int, why: str = "") -> NDArray[np.float64]:
+def rows(what: str, array: ArrayLike, width: int, why: str = "", form: str = "") -> NDArray[np.float64]:
     """An array of (n, `width`); one row may come without its brackets.
 
-    Raises ArrayError, with the name `what`, for anything else, and `why` for another shape.
+    Raises ArrayError, with the name `what`, for anything else, and `form` and `why` for another shape.
     """
     try:
         given = np.asarray(array, dtype=np.float64)
@@ -22,13 +22,13 @@ def rows(what: str, array: ArrayLike, width: int, why: str = "") -> NDArray[np.f
     if given.shape == (width,):
         return given.reshape(1, width)
     if given.ndim != 2 or given.shape[1] != width:
-        raise ArrayError(f"{what} is of shape {given.shape}, and must be (n, {width}){why}")
+        raise ArrayError(f"{what} is of shape {given.shape}, and must be {form or f'(n, {width})'}{why}")
     return given
 
 
 def row(what: str, array: ArrayLike, width: int) -> tuple[float, ...]:
     """One row of so many numbers. Raises ArrayError, with the name `what`, for anything else."""
-    given = rows(what, array, width)
+    given = rows(what, array, width, form=f"({width},)")
     if len(given) != 1:
         raise ArrayError(f"{what} is of shape {given.shape}, and must be ({width},)")
     return tuple(given[0].tolist())

@@ -28,6 +28,8 @@ def patch_of(surface: Any, *, name: str | None = None, flip: bool = False) -> di
         if surface.trims:
             raise ModelError("the surface is trimmed: give the whole surface, or import a STEP file")
         counts = int(surface.ctrlpts_size_u), int(surface.ctrlpts_size_v)
+        if not surface.ctrlpts:
+            raise ModelError("the surface has no control points")
         degree = int(surface.degree_u), int(surface.degree_v)
         # The second parameter runs fastest.
         places = np.array(surface.ctrlpts, dtype=float).reshape(*counts, -1)
