@@ -442,7 +442,7 @@ pub extern "C" fn knob_frame(number: i32, which: u32, a: f32, b: f32, c: f32, d:
 }
 
 /// The last words of a knob on the line: whether it has greeted, the number that it has answered, or −1, whether that
-/// was refused, with the reason as the text; then, of its dial, angle with its turns, rate, torque, detent and end.
+/// was refused, with the reason as the text; then, of its dial, angle, rate, torque, detent and end.
 #[unsafe(no_mangle)]
 pub extern "C" fn knob_heard() -> usize {
     let mut state = STATE.lock();

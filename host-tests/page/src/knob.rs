@@ -141,7 +141,7 @@ impl Turned {
     /// Angle of the dial and of its springs and stops, rad; rate, rad/s; the feel's torque, N·m; detent; end; phase;
     /// fault; maximum change of torque in the last run, N·m.
     pub fn view(&self, out: &mut Vec<f32>) {
-        let dial = KNOB.dial(self.state.witness(), self.state.probe(), self.state.phase());
+        let dial = KNOB.dial(self.state.witness(), self.state.angles()[0], self.state.phase());
         let whole = self.state.witness().angle().unwrap_or(self.angle);
         let fault = self.state.fault().map_or(0, |(fault, _)| fault.code());
         out.extend([self.angle, whole, self.rate, dial.torque_n_m]);

@@ -209,8 +209,8 @@ impl Monitor {
         let refused = self.answer.and_then(|answer| answer.refused);
         out.clear();
         out.extend([f32::from(u8::from(self.greeted)), number, f32::from(u8::from(refused.is_some()))]);
-        if let Some(Dial { turns, angle, rate, torque, detent, end, .. }) = self.dial {
-            out.extend([turns as f32 * core::f32::consts::TAU + angle, rate, torque, detent as f32, f32::from(end)]);
+        if let Some(Dial { angle, rate, torque, detent, end, .. }) = self.dial {
+            out.extend([angle, rate, torque, detent as f32, f32::from(end)]);
         }
         refused.map_or_else(String::new, |refused| refused.to_string())
     }

@@ -128,19 +128,19 @@ export class Basin {
     const { falls: context } = this,
       { width, height } = context.canvas;
     context.clearRect(0, 0, width, height);
-    const longest = Math.max(...falls.map((fall) => Math.min(fall.length, 40)), 8);
+    const longest = Math.max(...falls.map((fall) => fall.length), 8);
     // The numbers stand beside the curves and below them.
     const [left, right, top, bottom] = [16, width - 165, 20, height - 56];
     const across = (step) => left + ((right - left) * step) / (longest - 1),
       high = (value) => top + (bottom - top) * (1 - (value - least) / Math.max(most - least, 1e-9));
     falls.forEach((fall, index) => {
-      const shown = fall.slice(0, longest);
       context.strokeStyle = context.fillStyle = colour(["witness", "lost"][index]);
       context.lineWidth = 4 - index;
       context.beginPath();
-      shown.forEach((value, step) => context.lineTo(across(step), high(value)));
+      fall.forEach((value, step) => context.lineTo(across(step), high(value)));
       context.stroke();
-      shown.forEach((value, step) => dot(context, [across(step), high(value)], 5, context.fillStyle));
+      // As long as they are apart.
+      if (longest <= 40) fall.forEach((value, step) => dot(context, [across(step), high(value)], 5, context.fillStyle));
     });
     context.fillStyle = colour("quiet");
     context.font = "26px system-ui, sans-serif";

@@ -7,7 +7,7 @@ import { number } from "choices";
 
 const KINDS =
   "the page takes a body (.palp), a device (.toml), a recording (.json) or a table (.csv); " +
-  "models and CAD (.step) are baked first: cargo palpate bake";
+  "models and CAD (.step) are baked first, on a computer: cargo palpate bake";
 
 /** Opens a file by what its name ends in; whether it was taken. */
 export async function openFile(page, file) {
@@ -18,7 +18,8 @@ export async function openFile(page, file) {
   if (/\.palp$/i.test(name)) return page.take(body(file, name));
   const text = await file.text();
   if (/\.(step|stp)$/i.test(name) || /^\s*\[\[patch\]\]/m.test(text)) {
-    return refuse(`a model, not baked yet: cargo palpate bake ${name} --out ${name.replace(/\.\w+$/, "")}.palp`);
+    const baked = name.replace(/\.\w+$/, ".palp");
+    return refuse(`a model, not baked yet; run on a computer: cargo palpate bake ${name} --out ${baked}`);
   }
   if (/\.toml$/i.test(name)) return page.held.open(text, name);
   return /\.csv$/i.test(name) ? openTable(page, text, name) : openRecording(page, text, name);
@@ -42,11 +43,18 @@ export async function openRecording(page, text, name) {
   return opened;
 }
 
-function openTable(page, text, title) {
-  const { device } = page.body;
+async function openTable(page, text, title) {
   try {
-    const table = { ...places(text, device.centre, page.held.numbers.name), title };
-    page.player.open(along(table, device, number("rate")));
+    const table = { ...places(text, page.held.numbers.name), title },
+      name = table.of?.replace(/\.\w+$/, "");
+    if (name && name !== page.body.name) {
+      if (!page.has(name)) throw new Error(`${title}: a run on ${table.of}, and “${page.body.name}” is selected: open its body, ${name}.palp, first`);
+      if (!(await page.take(page.named(name)))) return false;
+    }
+    // With the settings of the sliders, not of a recording.
+    page.player.close();
+    page.choose();
+    page.player.open(along(table, page.body.device, number("rate")));
     page.refuse(null);
     return true;
   } catch (error) {

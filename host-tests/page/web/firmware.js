@@ -20,7 +20,8 @@ const NUMBERS = [
   "rejected",
 ];
 
-export const TOUCHING = 2;
+export const BEHIND = 0,
+  TOUCHING = 2;
 export const FACE = 0,
   EDGE = 1,
   VERTEX = 2;

@@ -17,5 +17,16 @@ export function whenFree(call) {
   for (const element of [by("stage"), document.querySelector("header"), by("foot")]) observer.observe(element);
 }
 
+/** A slider that a finger moved before its stroke became a scroll goes back to where it was. */
+export function keepScrolled() {
+  let slider, value;
+  addEventListener("pointerdown", ({ target }) => ((slider = target.type === "range" ? target : null), (value = target.value)), true);
+  addEventListener("pointercancel", () => {
+    if (!slider || slider.value === value) return;
+    slider.value = value;
+    for (const kind of ["input", "change"]) slider.dispatchEvent(new Event(kind, { bubbles: true }));
+  });
+}
+
 /** A length of one rem, px: letters that are drawn are as large as those beside them. */
 export const rem = () => parseFloat(getComputedStyle(document.documentElement).fontSize);

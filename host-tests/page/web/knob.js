@@ -39,7 +39,7 @@ const PARTS = {
   "end stops": () => {
     const stops = value("stops") * DEGREE;
     // Damped for the time that the torque comes late, and a little more.
-    return [4, -stops, stops, isEndless() ? 0 : value("hardness"), 1e-3 * value("hardness")];
+    return [4, -stops, stops, isEndless() ? 0 : MILLI * value("hardness"), 1e-6 * value("hardness")];
   },
   friction: () => [6, value("rub") * MILLI, 6, 0, 0],
   click: () => [7, value("click-at") * DEGREE, 10 * DEGREE, value("click") * MILLI, 0],
@@ -141,7 +141,7 @@ export class Knob {
   }
 
   say() {
-    const unit = { pitch: "°", strength: " mN·m", count: "", stops: "°", hardness: " N·m/rad", spring: " mN·m/rad" };
+    const unit = { pitch: "°", strength: " mN·m", count: "", stops: "°", hardness: " mN·m/rad", spring: " mN·m/rad" };
     const others = { damping: " mN·m·s", rub: " mN·m", texture: " mN·m", click: " mN·m", "click-at": "°" };
     for (const [slider, words] of Object.entries({ ...unit, ...others })) {
       const text = slider === "stops" && isEndless() ? "none" : `${value(slider)}${words}`.replace("-", "−");

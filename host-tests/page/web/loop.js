@@ -1,5 +1,6 @@
 // The loop in time: how many ticks a frame owes, and what moves the stylus in them.
 
+import { BEHIND } from "firmware";
 import { number, pace } from "choices";
 import { Presence, stroll } from "stroll";
 
@@ -27,6 +28,8 @@ export class Loop {
   /** A reader has taken the stylus. */
   taken() {
     this.strolls = this.stands = false;
+    // A slider is no part of the picture.
+    this.presence.come(this.presence.here);
   }
 
   /** Puts the stylus to a place of the room, unless it is near, in sizes of the body; contact begins anew there. */
@@ -54,7 +57,8 @@ export class Loop {
   }
 
   next(seconds) {
-    return this.strolls ? this.ease(seconds) : this.pointer.towards(this.place, seconds);
+    if (this.strolls) return this.ease(seconds);
+    return this.pointer.towards(this.place, seconds, this.device.view().contact === BEHIND);
   }
 
   // From wherever the stylus is to where it strolls.

@@ -8,12 +8,13 @@ import { toggle } from "live";
 import { number, whenChosen } from "choices";
 import { verify } from "proof";
 import { explain } from "why";
-import { whenFree } from "free";
+import { keepScrolled, whenFree } from "free";
 
 const by = (id) => document.getElementById(id);
 const page = new Page();
 
 function wire() {
+  by("no-webgl").hidden = page.room.renderer !== null;
   for (const { name, title } of given.bodies) by("body").add(new Option(title, name));
   by("body").addEventListener("change", ({ target: { value } }) => page.take(page.named(value)));
   whenChosen(() => page.choose());
@@ -31,6 +32,7 @@ function wire() {
   by("leave").addEventListener("click", () => page.leave());
   for (const button of ["serial", "knob-serial"]) by(button).addEventListener("click", () => toggle(page));
   explain();
+  keepScrolled();
   for (const [words, address] of given.links ?? [])
     by("links").append(Object.assign(document.createElement("a"), { textContent: words, href: address, target: "_blank" }));
   addEventListener("resize", () => page.room.resize());

@@ -1,7 +1,7 @@
 // The page as one thing: which body is shown, in which panel, and what is seen of it.
 
 import { EDGE, FACE, featureOf } from "firmware";
-import { read, shipped } from "bodies";
+import { given, read, shipped } from "bodies";
 import { Room } from "scene";
 import { Marks } from "marks";
 import { Pointer } from "pointer";
@@ -79,6 +79,11 @@ export class Page {
     return this.take(Promise.resolve({ ...this.body, parts: undefined }));
   }
 
+  /** Whether a name is in the list. */
+  has(name) {
+    return this.opened.has(name) || given.bodies.some((body) => body.name === name);
+  }
+
   /** The body of a name in the list. */
   named(name) {
     return this.opened.has(name) ? read(this.opened.get(name), name) : shipped(name);
@@ -93,6 +98,7 @@ export class Page {
   /** Goes on as the sliders say. */
   choose() {
     say();
+    if (this.player.recording?.settings) return;
     try {
       this.body.device.choose(choices(this.held.damping));
       this.player.again(this.body.device, number("rate"));
@@ -111,6 +117,7 @@ export class Page {
     });
     this.marks.ways();
     by("stage").classList.toggle("dials", name === "knob");
+    by("stage").classList.toggle("still", name === "basin");
     by("dial").hidden = name !== "knob";
     by("choose").hidden = name === "knob";
     if (name === "knob") return this.knob.begin();

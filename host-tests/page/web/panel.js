@@ -41,7 +41,7 @@ export function show(view, body) {
   // Several bodies share a tick.
   set("evaluations", body.called ? "–" : String(view.evaluations));
   set("phase", view.fault ? `${PHASES[view.phase]} ${view.fault}` : PHASES[view.phase]);
-  by("caption").innerHTML = caption(view, body, millimetres, newtons, touching);
+  by("caption").innerHTML = `<span>${caption(view, body, millimetres, newtons, touching)}</span>`;
 }
 
 function caption(view, body, millimetres, newtons, touching) {

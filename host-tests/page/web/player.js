@@ -1,6 +1,6 @@
 // A recording or a table that is shown: its views in time, and the bar to move in it.
 
-import { pace } from "choices";
+import { endRecorded, pace, showRecorded } from "choices";
 import { TOUCHING } from "firmware";
 import { along } from "recording";
 
@@ -24,6 +24,7 @@ export class Player {
     by("timeline").hidden = false;
     by("device").disabled = true;
     by("device-about").textContent = recording.with ? `This run was made with ${recording.with}.` : "";
+    if (recording.settings) showRecorded(recording.settings);
     by("proven").hidden = false;
     by("proven").textContent = recording.hash
       ? `✓ A run of ${recording.on}: here it comes to the same state hash ${recording.hash}, bit for bit.`
@@ -53,6 +54,7 @@ export class Player {
   /** Leaves it. */
   close() {
     this.recording = null;
+    endRecorded();
     by("device").disabled = false;
     by("timeline").hidden = by("proven").hidden = true;
   }

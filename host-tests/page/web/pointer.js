@@ -14,6 +14,8 @@ const FAR = 0.25;
 /** Seconds in which the stylus has gone two thirds of the way. */
 const EASE = 0.07;
 
+const within = (height) => Math.min(Math.max(height, LOWEST), HIGHEST);
+
 export class Pointer {
   constructor(room, { touched, put }) {
     Object.assign(this, { room, touched, put });
@@ -42,6 +44,8 @@ export class Pointer {
     this.pressed = false;
     this.goal = null;
     this.held = null;
+    /** Whether it is being lifted out of the body, and whether a hand has moved since it was last. */
+    this.lifts = this.moved = false;
   }
 
   move(event) {
@@ -60,7 +64,7 @@ export class Pointer {
     this.room.canvas.focus();
     this.move(event);
     if (isFinger && this.foot) this.put(this.over(this.height), FAR);
-    this.pressed = this.mode === "surface";
+    this.pressed = true;
   }
 
   /** At a height over the foot, in the room. */
@@ -101,22 +105,27 @@ export class Pointer {
   }
 
   raise(by) {
-    if (this.mode === "plane" && this.goal) {
-      // Away from the reader, or nearer.
-      const away = this.room.camera.getWorldDirection(new Vector3());
-      this.goal.addScaledVector(away, -by);
-    } else {
-      this.height = Math.min(Math.max(this.height + by, LOWEST), HIGHEST);
-      this.aim();
-    }
-    this.touched();
+    const height = this.height + by;
+    this.holdAt(this.mode === "plane" ? height : within(height));
+    if (this.mode === "surface") this.aim();
   }
 
-  /** Holds the stylus at a height over the surface, in sizes of the body. */
+  /** Holds the stylus at a height over the surface, or moves its plane nearer to the reader by as much, in sizes of the body. */
   holdAt(height) {
+    if (this.mode === "plane") this.goal?.addScaledVector(this.room.camera.getWorldDirection(new Vector3()), this.height - height);
     this.height = height;
     this.held = null;
     this.touched();
+  }
+
+  /** From the plane along the view to where that meets the body, and into it. */
+  pressedIn() {
+    const { camera, faces } = this.room,
+      along = this.goal.clone().sub(camera.position),
+      far = along.length();
+    this.ray.set(camera.position, along.divideScalar(far));
+    const [hit] = this.ray.intersectObjects(faces, false);
+    return this.ray.ray.at(Math.max(far, hit?.distance ?? 0) + PRESS, new Vector3());
   }
 
   key(event) {
@@ -141,17 +150,19 @@ export class Pointer {
   aim() {
     const { room } = this;
     this.ray.setFromCamera(this.at, room.camera);
-    const through = this.goal ?? new Vector3();
     if (this.mode === "surface") {
       const [hit] = this.ray.intersectObjects(room.faces, false);
       if (hit) {
         const normal = smooth(hit);
         this.foot = { point: hit.point.clone(), normal };
         this.goal = null;
+        this.moved = true;
         return;
       }
     }
     const facing = room.camera.getWorldDirection(new Vector3());
+    // Of a body just taken, in front of it.
+    const through = this.goal ?? facing.clone().multiplyScalar(this.mode === "plane" ? -0.5 - this.height : 0);
     const plane = new Plane().setFromNormalAndCoplanarPoint(
       facing,
       this.foot && !this.goal ? this.foot.point : through,
@@ -164,6 +175,7 @@ export class Pointer {
   /** From a place in the frame of the tables, metres, moves on over the surface, or in a plane that faces the reader. */
   moveIn(mode, place) {
     this.mode = mode;
+    this.height = within(this.height);
     this.goal = this.room.place(place);
     this.foot = null;
   }
@@ -173,13 +185,21 @@ export class Pointer {
     this.held = place;
   }
 
-  /** Where the stylus is to be, coming from a place, after so many seconds; metres, in the frame of the tables. */
-  towards(from, seconds) {
+  /**
+   * Where the stylus is to be, coming from a place, after so many seconds; metres, in the frame of the tables. `behind`:
+   * it is where nothing is felt, as after a drag straight through the body.
+   */
+  towards(from, seconds, behind) {
     if (this.held) return this.held;
-    let goal = this.goal;
+    let goal = this.mode === "plane" && this.pressed && this.goal ? this.pressedIn() : this.goal;
     if (this.foot) {
       const height = this.pressed ? Math.min(this.height, 0) - PRESS : this.height;
-      goal = this.over(height);
+      const above = this.over(Math.max(height, HOVER)),
+        isFar = this.room.place(from).distanceTo(above) > HOVER / 2;
+      // Once a motion: beyond an open border it would go up and down.
+      this.lifts = isFar && (this.lifts || (behind && this.moved));
+      if (this.lifts) this.moved = false;
+      goal = this.lifts ? above : this.over(height);
     }
     if (!goal) return from;
     const share = 1 - Math.exp(-seconds / EASE);

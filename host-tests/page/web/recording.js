@@ -45,6 +45,8 @@ export async function open(text, name) {
     views,
     seconds: STRIDE / said.settings[0],
     hash,
+    // A recorded loop has no friction and the firmware's law; in a scene each body has its own stiffness.
+    settings: { rate: said.settings[0], stiffness: said.scene ? null : said.settings[1], friction: 0, law: 0, rendering },
     on: said.on,
     with: said.device,
   };
@@ -93,11 +95,8 @@ function counts(bytes, ticks, enableAt) {
 /** Seconds between two views of a table: ticks of any rate. */
 const APART = 4e-3;
 
-/**
- * The probe's places of a table that `palpate sim --csv` has written with a device, in the frame of the tables, evenly in
- * time; and that device.
- */
-export function places(text, centre, held) {
+/** The probe's places of a table that `palpate sim --csv` has written, evenly in time, with its device and its model's file. */
+export function places(text, held) {
   const [head, ...lines] = text
     .trim()
     .split(/\r?\n/)
@@ -111,14 +110,15 @@ export function places(text, centre, held) {
   const found = [];
   for (let at = 0, time = rows[0][0]; time <= rows.at(-1)[0]; time += APART) {
     while (at + 1 < rows.length && rows[at + 1][0] <= time) at += 1;
-    found.push(rows[at].slice(1).map((coordinate, axis) => coordinate - centre[axis]));
+    found.push(rows[at].slice(1));
   }
-  return { places: found, with: made };
+  return { places: found, with: made, of: lines[0][head.indexOf("model")] };
 }
 
 /** What the loop in the hand, with its rate, does at the places of a table: a recording. */
 export function along(table, device, rate) {
-  device.restart(table.places[0]);
-  const views = table.places.map((place) => (device.run(rate * APART, place), device.view()));
+  const places = table.places.map((place) => place.map((coordinate, axis) => coordinate - device.centre[axis]));
+  device.restart(places[0]);
+  const views = places.map((place) => (device.run(rate * APART, place), device.view()));
   return { ...table, views, seconds: APART };
 }

@@ -48,11 +48,16 @@ const SEEN = 0.3;
 export class Room {
   constructor(canvas) {
     this.canvas = canvas;
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
-    this.renderer.toneMapping = ACESFilmicToneMapping;
-    this.renderer.toneMappingExposure = 0.92;
-    this.renderer.shadowMap.enabled = true;
-    this.renderer.shadowMap.type = PCFShadowMap;
+    // Asked for here: three.js throws where a browser has none.
+    const context = canvas.getContext("webgl2", { antialias: true, alpha: true, preserveDrawingBuffer: true });
+    /** Null in a browser without WebGL: then everything works but the picture. */
+    this.renderer = context && new WebGLRenderer({ canvas, context });
+    if (context) {
+      this.renderer.toneMapping = ACESFilmicToneMapping;
+      this.renderer.toneMappingExposure = 0.92;
+      this.renderer.shadowMap.enabled = true;
+      this.renderer.shadowMap.type = PCFShadowMap;
+    }
     this.scene = new Scene();
     this.scene.environmentIntensity = 0.42;
     this.camera = new PerspectiveCamera(32, 1, 0.01, 60);
@@ -275,8 +280,8 @@ export class Room {
 
   resize() {
     const { width, height, top, bottom } = free(true);
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-    this.renderer.setSize(width, height, false);
+    this.renderer?.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer?.setSize(width, height, false);
     this.camera.aspect = width / Math.max(height, 1);
     // In the middle of what words leave free, and as large as fits there.
     const scale = Math.min((bottom - top) / HIGH, width / WIDE);
@@ -289,7 +294,7 @@ export class Room {
   /** Draws a frame, or only puts everything to where it would be drawn. */
   draw(draws) {
     this.orbit.update();
-    if (draws) {
+    if (draws && this.renderer) {
       // Drawn itself, so not before anything is.
       this.scene.environment ??= new PMREMGenerator(this.renderer).fromScene(new RoomEnvironment(), 0.04).texture;
       return this.renderer.render(this.scene, this.camera);

@@ -45,7 +45,10 @@ fn a_body_is_taken_and_a_spoiled_one_is_refused_in_the_words_of_the_device() -> 
     ensure!(state["refusal"].as_str().is_some_and(|words| words.contains("not a recording")), "{state}");
     // A device's file has the same ending.
     let state = dropped(&page, "box.toml", &fs::read(repository("host-tests/models/capped_box.toml"))?)?;
-    ensure!(state["refusal"].as_str().is_some_and(|words| words.contains("palpate bake box.toml")), "{state}");
+    ensure!(
+        state["refusal"].as_str().is_some_and(|words| words.contains("on a computer: cargo palpate bake box.toml")),
+        "{state}"
+    );
     ensure!(page.errors().is_empty(), "on the console: {:?}", page.errors());
     Ok(())
 }

@@ -70,7 +70,7 @@ fn sliders_set_the_dial_without_a_step_and_within_its_limits() -> anyhow::Result
     for (slider, to, back, words) in [
         ("texture", 15.0, "0", "texture: with it the feel is as stiff as "),
         ("damping", 0.0, "2", "damping: with it a dial that is let go of would ring: "),
-        ("hardness", 1.2, "0.4", "hardness: with it the feel is as stiff as "),
+        ("hardness", 1200.0, "400", "hardness: with it the feel is as stiff as "),
     ] {
         slide(&page, &[("stops", 60.0), (slider, to)])?;
         let state = page.ask(&format!(
@@ -186,7 +186,7 @@ fn a_device_on_the_line_gets_the_feel_that_its_reader_sends() -> anyhow::Result<
     page.comes_to(
         "document.getElementById('knob-said').textContent.startsWith('the device refuses damping: no feel')",
     )?;
-    line.say(&DeviceMessage::Dial(Dial { angle: 0.5, detent: 7, ..Dial::default() }))?;
+    line.say(&DeviceMessage::Dial(Dial { turns: 2, angle: 0.5, detent: 7, ..Dial::default() }))?;
     page.ask("palpate.pause(false)")?;
     page.comes_to("document.getElementById('knob-detent').textContent === '7'")?;
     page.comes_to("document.getElementById('knob-angle').textContent === '28.6°'")?;

@@ -4,6 +4,7 @@
 use crate::browser::Page;
 use crate::tool::{address, palpate_in, repository};
 use anyhow::{Context as _, ensure};
+use serde_json::json;
 use std::fs;
 
 /// Finds the faults of a page as it stands.
@@ -174,6 +175,9 @@ fn faults_of_page(page: &Page, at: &str) -> anyhow::Result<Vec<String>> {
     page.ask("palpate.drawn(2)")?;
     let covers = page.ask(COVERS)?;
     ensure!(covers == serde_json::json!([]), "the body lies over {covers} at {at}");
+    // Close up it does: the caption has a ground of its own, which `faults` compares its words with.
+    let ground = page.ask("getComputedStyle(document.getElementById('caption').firstElementChild).backgroundColor")?;
+    ensure!(ground.as_str().is_some_and(|colour| colour.starts_with("rgb(")), "below the caption: {ground}");
     page.ask("palpate.holdDevice('woodenhaptics-2016')")?;
     all.extend(faults(page, &format!("page with a device, {at}"))?);
     page.ask("palpate.holdDevice('')")?;
@@ -182,7 +186,12 @@ fn faults_of_page(page: &Page, at: &str) -> anyhow::Result<Vec<String>> {
     for word in ["boundary mode", "gain", "evaluations a tick", "law"] {
         let why = format!("[...document.querySelectorAll('[data-why]')].find((word) => word.textContent === '{word}')");
         page.ask(&format!("{why}.scrollIntoView({{ block: 'center' }})"))?;
-        page.ask(&format!("{why}.dispatchEvent(new PointerEvent('pointerenter'))"))?;
+        // A finger that scrolls over the word explains nothing.
+        page.ask("palpate.drawn(2)")?;
+        page.ask("document.getElementById('why').hidden = true")?;
+        page.ask(&format!("{why}.dispatchEvent(new PointerEvent('pointerenter', {{ pointerType: 'touch' }}))"))?;
+        ensure!(page.ask("document.getElementById('why').hidden")? == true, "a finger that scrolls explains {word}");
+        page.ask(&format!("{why}.dispatchEvent(new PointerEvent('pointerenter', {{ pointerType: 'mouse' }}))"))?;
         let bubble = "(({ hidden, textContent }) => !hidden && textContent.length)(document.getElementById('why'))";
         ensure!(page.number(bubble)? > 40.0, "{word} is not explained");
         let inside = "(({ left, right, bottom }) => left >= 0 && right <= innerWidth && bottom <= innerHeight)\
@@ -229,5 +238,42 @@ fn photograph(page: &Page, report: &str, width: u32, scheme: &str) -> anyhow::Re
     if let (Some((.., name)), Some(_)) = (wanted, std::env::var_os("PALPATE_WRITE")) {
         fs::write(repository(&format!("docs/figures/{name}.webp")), page.photograph()?)?;
     }
+    Ok(())
+}
+
+/// A browser without WebGL, as one with neither a graphics card nor a replacement.
+const NO_WEBGL: &str = "HTMLCanvasElement.prototype.getContext = (get => function (kind, ...how) { \
+    return kind.startsWith('webgl') ? null : get.call(this, kind, ...how); })(HTMLCanvasElement.prototype.getContext)";
+/// Words that a reader sees about it.
+const NO_PICTURE: &str =
+    "document.getElementById('no-webgl').offsetHeight && document.getElementById('no-webgl').textContent";
+
+#[test]
+fn without_webgl_the_page_names_it_and_works_but_for_the_picture() -> anyhow::Result<()> {
+    let page = Page::empty()?;
+    page.set_size([390, HEIGHT], 1.0)?;
+    let added = page.call("Page.addScriptToEvaluateOnNewDocument", &json!({ "source": NO_WEBGL }))?;
+    page.go(&address())?;
+    let words = page.ask(NO_PICTURE)?;
+    ensure!(words.as_str().is_some_and(|words| words.contains("no WebGL 2")), "{words}: {:?}", page.errors());
+    page.comes_to("window.palpate.ready")?;
+    let found = faults(&page, "without WebGL")?;
+    ensure!(found.is_empty(), "{}", found.join("\n"));
+    ensure!(page.number("document.getElementById('body').length")? > 5.0, "bodies are missing from the list");
+    page.ask("palpate.take('sphere_body')")?;
+    let pressed = "palpate.hold([0, 0, 0.499 * palpate.about().size], 2000).gap / palpate.about().size";
+    let gap = page.number(pressed)?;
+    ensure!((gap + 0.001).abs() < 1e-4, "pressed to a gap of {gap} sizes");
+    page.ask("palpate.drawn(3)")?;
+    page.ask("palpate.panel('knob')")?;
+    let torque = page.number("palpate.turnKnob(0.05, 4000).torque")?;
+    ensure!(torque < -1e-3, "a turned dial's torque is {torque} N·m");
+    ensure!(page.errors().is_empty(), "on the console: {:?}", page.errors());
+    page.call("Page.removeScriptToEvaluateOnNewDocument", &added)?;
+    // From one place of a page to another nothing is loaded.
+    page.go("about:blank")?;
+    page.run(&address())?;
+    let words = page.ask(NO_PICTURE)?;
+    ensure!(words == 0, "with WebGL: {words}");
     Ok(())
 }

@@ -53,3 +53,47 @@ fn a_reader_sees_a_body_and_a_basin() -> anyhow::Result<()> {
     ensure!(page.errors().is_empty(), "on the console: {:?}", page.errors());
     Ok(())
 }
+
+/// What the plot of both methods' distances draws: its words, and how many places.
+const PLOTTED: &str = "(({ basin }) => {
+    const { falls } = basin, words = [];
+    let places = 0;
+    falls.fillText = (text) => words.push(text);
+    falls.lineTo = () => (places += 1);
+    basin.plot();
+    delete falls.fillText;
+    delete falls.lineTo;
+    return { words, places };
+})(palpate.page)";
+
+#[test]
+fn the_plot_of_the_steps_draws_all_that_the_sentence_counts() -> anyhow::Result<()> {
+    let page = Page::held_still()?;
+    let mut longest = 0;
+    for (body, law) in [("table1", 0), ("table1", 1), ("teapot", 0)] {
+        page.ask(&format!("palpate.take('{body}').then(() => palpate.panel('basin')).then(() => palpate.settled())"))?;
+        page.ask(&format!(
+            "((list) => {{ list.value = {law}; list.dispatchEvent(new Event('change')); }})(document.getElementById('basin-law'))"
+        ))?;
+        page.ask("palpate.settled()")?;
+        let note = page.ask("document.getElementById('basin-note').textContent")?;
+        let note = note.as_str().unwrap_or_default();
+        let steps = note.split("after ").skip(1).filter_map(|rest| rest.split(' ').next()?.parse::<u64>().ok());
+        let steps: Vec<u64> = steps.collect();
+        let plotted = page.ask(PLOTTED)?;
+        println!("{body}, law {law}: {note} {plotted}");
+        let most = steps.iter().copied().max().unwrap_or_default();
+        let words = plotted["words"].as_array().into_iter().flatten();
+        let is_named = words.into_iter().any(|text| text == &format!("{} steps", most.max(7)));
+        ensure!(steps.len() == 2 && is_named, "{note} {plotted}");
+        ensure!(plotted["places"].as_u64() == Some(steps.iter().sum::<u64>() + 2), "{note} {plotted}");
+        longest = longest.max(most);
+    }
+    ensure!(longest > 60, "{longest} steps at most");
+    // No words about a stylus, which does not move there.
+    let hints = "[...document.querySelectorAll('.hand')].filter((words) => words.checkVisibility()).length";
+    ensure!(page.number(hints)? == 0.0, "hints about the stylus");
+    page.ask("palpate.panel('feel')")?;
+    ensure!(page.number(hints)? == 1.0, "no hint about the stylus");
+    Ok(())
+}

@@ -145,6 +145,14 @@ fn a_recording_of_another_body_device_or_run_is_refused_and_says_which() -> anyh
     ensure!(state["refusal"].is_null() && state["replay"]["with"] == "polhem-v2", "{state}");
     let about = state["held"]["about"].as_str().unwrap_or_default();
     ensure!(about.contains("polhem-v2"), "the reader sees another device: {about:?}");
+    let chosen = |state: &Value| ["rate", "stiffness", "rendering"].map(|name| state["choices"][name].as_f64());
+    let stiffness = run["settings"][1].as_f64();
+    ensure!(chosen(&state) == [Some(4e3), stiffness, Some(2.0)] && stiffness != Some(1e3), "{}", state["choices"]);
+    let shown = page.ask("document.getElementById('stiffness').nextElementSibling.textContent")?;
+    ensure!(shown == format!("{} N/m", stiffness.unwrap_or_default()), "{shown}");
+    page.ask("palpate.page.leave()")?;
+    let left = chosen(&page.ask("palpate.state()")?);
+    ensure!(left == [Some(4e3), Some(1e3), Some(0.0)], "the settings of before the run: {left:?}");
     let counts = run["counts"].as_str().context("no counts")?;
     let moved = format!("{}{}", if counts.starts_with('A') { 'E' } else { 'A' }, &counts[1..]);
     let with = |change: &dyn Fn(&mut Value)| {
@@ -183,6 +191,17 @@ fn a_recording_of_another_body_device_or_run_is_refused_and_says_which() -> anyh
         let taken = page.ask(&format!("palpate.open('run.csv', {table:?})"))?;
         ensure!(taken == is_taken, "{held}: {}", page.ask("palpate.state().refusal")?);
     }
+    // A table of another body than the one that is selected selects its own, or names it where the page has none.
+    page.ask("palpate.take('ellipsoid_body')")?;
+    ensure!(page.ask(&format!("palpate.open('run.csv', {table:?})"))? == true, "{}", page.ask("palpate.state()")?);
+    let state = page.ask("palpate.state()")?;
+    ensure!(state["name"] == "sphere_body" && state["refusal"].is_null(), "{state}");
+    let own = STANDARD.encode(fs::read_to_string(path("run.csv"))?.replace("sphere_body.toml", "part.step"));
+    ensure!(page.ask(&format!("palpate.open('run.csv', {own:?})"))? == false, "a run on a body that is not here");
+    let words = page.ask("palpate.state().refusal")?;
+    let says = ["part.step", "“sphere_body”", "open its body, part.palp"];
+    ensure!(says.iter().all(|part| words.as_str().is_some_and(|words| words.contains(part))), "{words}");
+    ensure!(page.ask(&format!("palpate.open('run.csv', {table:?})"))? == true, "{words}");
     // A table that is shown says so, has the bar of a recording, and is computed again when a setting changes.
     let shown = "['proven', 'timeline'].map((id) => !document.getElementById(id).hidden)";
     ensure!(page.ask(shown)? == json!([true, true]), "a table without a bar");

@@ -142,3 +142,49 @@ fn the_first_view_of_each_patch_shows_the_side_that_is_touched() -> anyhow::Resu
     ensure!(patches_seen > 1, "no patches");
     Ok(())
 }
+
+/// Presses the stylus in over one face and moves the hand to another at once, at a frame a second; how often it is
+/// pressed in over the first, and how often behind the surface twelve frames later, of the frames' 50 ms each.
+const LEAPS: &str = "(() => {
+    const { loop, pointer, room, body } = palpate.page, feet = [];
+    room.draw(false);
+    for (const face of room.faces) {
+        const { position, normal } = face.geometry.attributes, middle = Math.floor(position.count / 2);
+        const point = room.camera.position.clone().fromBufferAttribute(position, middle).applyMatrix4(face.matrixWorld);
+        feet.push({ point, normal: point.clone().fromBufferAttribute(normal, middle) });
+    }
+    const frames = (count) => {
+        for (let frame = 0; frame < count; frame += 1) palpate.page.advance(0.05);
+        return palpate.page.view.contact;
+    };
+    let leaps = 0, behind = 0;
+    loop.presence.come(true);
+    Object.assign(loop, { paused: false, strolls: false });
+    for (const from of feet.filter((_, face) => face % 3 === 0)) for (const to of feet) {
+        pointer.begin();
+        pointer.foot = from;
+        loop.place = room.unplace(pointer.over(0.1));
+        body.device.restart(loop.place);
+        if (frames(6) !== 1) continue;
+        pointer.pressed = true;
+        if (frames(6) !== 2) continue;
+        leaps += 1;
+        Object.assign(pointer, { foot: to, moved: true });
+        behind += frames(12) === 0;
+    }
+    loop.paused = true;
+    return { leaps, behind };
+})()";
+
+#[test]
+fn a_stylus_dragged_through_the_body_is_lifted_to_where_it_is_felt() -> anyhow::Result<()> {
+    let page = Page::held_still()?;
+    page.ask("palpate.take('teapot')")?;
+    let state = page.ask(LEAPS)?;
+    println!("{state}");
+    let [leaps, behind] = ["leaps", "behind"].map(|name| state[name].as_u64().unwrap_or_default());
+    // Its patches pass through each other, and beyond an open border nothing is felt.
+    ensure!(leaps > 200 && 10 * behind < leaps, "{state}");
+    ensure!(page.errors().is_empty(), "on the console: {:?}", page.errors());
+    Ok(())
+}
