@@ -1,4 +1,4 @@
-//! The text of a file without remarks, and its pieces between semicolons.
+//! The text of a file without remarks, its pieces between semicolons, and their references.
 
 use std::borrow::Cow;
 
@@ -30,6 +30,13 @@ pub fn pieces(text: &str) -> impl Iterator<Item = &str> {
         is_name ^= c == '\'';
         c == ';' && !is_name
     })
+}
+
+/// The references in fields, outside names.
+pub fn references(text: &str) -> Vec<u64> {
+    let parts = text.split('\'').step_by(2);
+    let words = parts.flat_map(|part| part.split('#').skip(1));
+    words.filter_map(|word| word.split(|c: char| !c.is_ascii_digit()).next()?.parse().ok()).collect()
 }
 
 #[cfg(test)]

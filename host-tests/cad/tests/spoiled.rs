@@ -54,8 +54,20 @@ fn a_missing_entity_is_named() {
         let end = start + whole[start..].find(';').unwrap() + 1;
         let text = format!("{}{}", &whole[..start], &whole[end..]);
         let message = outcome(&format!("without-{id}"), &text).unwrap_err();
-        assert!(message.contains('#'), "without #{id}: {message}");
+        // Its number, and that of the one that refers to it.
+        let says = format!("cannot be used: it refers to #{id}, which the file does not have; export the part again");
+        assert!(message.starts_with("entity #") && message.ends_with(&says), "without #{id}: {message}");
     }
+}
+
+#[test]
+fn a_surface_of_a_type_that_is_not_read_is_named_with_those_that_are() {
+    let whole = whole();
+    let start = whole.find("#32 = PLANE('',").unwrap();
+    let spoiled = format!("{}#32 = BLEND_SURFACE('',{}", &whole[..start], &whole[start + "#32 = PLANE('',".len()..]);
+    let words = "entity #32 (BLEND_SURFACE) of ";
+    refused("blend", &spoiled, words);
+    refused("blend", &spoiled, "B-spline (NURBS) surface; export the part again");
 }
 
 #[test]

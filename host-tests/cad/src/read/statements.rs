@@ -2,7 +2,7 @@
 //! mind.
 
 use crate::error::ImportError;
-use crate::remarks::pieces;
+use crate::remarks::{pieces, references};
 use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
 use step_io::{DropKind, EntityKey, Error, Report};
@@ -271,22 +271,43 @@ pub fn check(statements: &[Statement<'_>], report: &Report, file: &str) -> Resul
     }
     let types: HashMap<u64, &str> = statements.iter().map(|of| (of.id, of.kind.as_str())).collect();
     let name = |id: u64| types.get(&id).map_or_else(|| "of no type".to_owned(), |name| (*name).to_owned());
-    let is_needed = |id: u64| {
-        let name = name(id);
+    let is_needed = |name: &str| {
         NEEDED.iter().any(|needed| name.contains(needed)) && !LOOKS.iter().any(|looks| name.contains(looks))
     };
-    let of_the_shape = || report.dropped.iter().filter(|(id, _)| is_needed(*id));
+    let of_the_shape = || report.dropped.iter().filter(|(id, _)| is_needed(&name(*id)));
     // The first that is bad by itself says more than those that only refer to it.
     let first = of_the_shape().find(|(_, reason)| reason.kind != DropKind::Cascade).or_else(|| of_the_shape().next());
     let Some((id, reason)) = first else { return Ok(()) };
     let detail: &str = reason.detail.as_ref();
-    let reason = match detail.strip_prefix("via-") {
-        Some("dangling") => "it refers to an entity that the file does not have, or goes round in a circle".to_owned(),
-        Some(kind) => format!("it refers to a {kind}, which is not read: leave that out"),
-        None => reason.to_string(),
+    // Not all that refer to it by others, up to the whole shape.
+    let absent = || {
+        let mut of_the_shape = statements.iter().filter(|of| is_needed(&of.kind));
+        of_the_shape.find_map(|of| {
+            let absent = references(of.arguments).into_iter().find(|id| !types.contains_key(id))?;
+            Some((of.id, format!("it refers to #{absent}, which the file does not have")))
+        })
+    };
+    let (id, reason) = match detail.strip_prefix("via-") {
+        Some("dangling") => absent().unwrap_or_else(|| (*id, "it goes round in a circle".to_owned())),
+        Some(kind) => (*id, format!("it refers to a {kind}, which is not read: leave that out")),
+        None if reason.kind == DropKind::Unimplemented => (*id, unread(detail)),
+        None => (*id, reason.to_string()),
     };
     let reason = format!("{reason}; export the part again");
-    Err(ImportError::Entity { file: file.to_owned(), id: *id, kind: name(*id), reason })
+    Err(ImportError::Entity { file: file.to_owned(), id, kind: name(id), reason })
+}
+
+/// Why an entity of a type that is not read is refused, and the types in whose place it stands.
+fn unread(kind: &str) -> String {
+    let is_surface = kind.ends_with("SURFACE") || kind.contains("SURFACE_OF");
+    let instead = if is_surface && !kind.contains("CURVE_ON") {
+        "with this face as a plane, cylinder, cone, sphere, torus, extrusion, revolution or B-spline (NURBS) surface"
+    } else if kind.contains("CURVE") && !is_surface {
+        "with this edge as a line, circle, ellipse or B-spline (NURBS) curve"
+    } else {
+        "as a solid of AP203, AP214 or AP242, without construction history"
+    };
+    format!("this type is not read; the CAD program must write it {instead}")
 }
 
 // What the reader takes and no part can have: radii that are not positive, lists of nothing, products made of

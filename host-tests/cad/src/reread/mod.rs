@@ -9,9 +9,9 @@ mod records;
 mod tests;
 mod walk;
 
-use crate::remarks::without_remarks;
+use crate::remarks::{references, without_remarks};
 use glam::{DAffine3, DVec3};
-use records::{Records, numbers, reference, references};
+use records::{Records, numbers, reference};
 use std::collections::hash_map::Entry;
 use std::collections::{HashMap, HashSet};
 use std::path::Path;

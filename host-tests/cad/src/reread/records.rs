@@ -1,6 +1,6 @@
 //! The statements of a STEP file as they stand there: numbers, types, fields, references.
 
-use crate::remarks::pieces;
+use crate::remarks::{pieces, references};
 use std::collections::HashMap;
 
 /// The parts of a statement: each a type and its fields, unparsed. All but complex entities have one.
@@ -107,13 +107,6 @@ pub(super) fn reference(field: &str) -> Option<u64> {
 pub(super) fn number(field: &str) -> Option<f64> {
     let inner = field.rsplit_once('(').map_or(field, |(_, inner)| inner.trim_end_matches(')'));
     inner.trim().parse().ok()
-}
-
-/// The references in fields, outside names.
-pub(super) fn references(text: &str) -> Vec<u64> {
-    let parts = text.split('\'').step_by(2);
-    let words = parts.flat_map(|part| part.split('#').skip(1));
-    words.filter_map(|word| word.split(|c: char| !c.is_ascii_digit()).next()?.parse().ok()).collect()
 }
 
 /// The numbers of a list such as `(1.,2.,3.)`.

@@ -1,7 +1,8 @@
 //! The way through products, representations and placements, by a file's text.
 
-use super::records::{Records, fields, number, numbers, reference, references};
+use super::records::{Records, fields, number, numbers, reference};
 use super::{below, point};
+use crate::remarks::references;
 use glam::{DAffine3, DMat3, DVec3};
 use std::collections::{HashMap, HashSet};
 
