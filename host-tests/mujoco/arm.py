@@ -30,7 +30,9 @@ def arm(numbers):
             f'damping="{numbers["viscous"][joint]}" frictionloss="{numbers["coulomb"][joint]}"'
         )
 
-    motor = f'gainprm="1" dyntype="filterexact" dynprm="{numbers["time_constant"]}"'
+    # A counterweight without inertia is none of MuJoCo's bodies.
+    assert np.allclose(numbers["balance"], 0), numbers["balance"]
+    motors = [f'gainprm="1" dyntype="filterexact" dynprm="{lag}"' for lag in numbers["time_constant"]]
     light = '<inertial pos="0 0 0" mass="1e-9" diaginertia="1e-12 1e-12 1e-12"/>'
     return f"""<mujoco>
   <compiler angle="radian"/>
@@ -51,7 +53,7 @@ def arm(numbers):
     <joint joint="b" coef="1"/><joint joint="elbow" coef="1"/>
   </fixed></tendon>
   <actuator>
-    <general joint="a" {motor}/><general joint="b" {motor}/><general tendon="c" {motor}/>
+    <general joint="a" {motors[0]}/><general joint="b" {motors[1]}/><general tendon="c" {motors[2]}/>
   </actuator>
   <sensor><framepos objtype="site" objname="tip"/><framelinvel objtype="site" objname="tip"/></sensor>
 </mujoco>"""

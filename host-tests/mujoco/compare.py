@@ -44,7 +44,7 @@ class Case:
         return self.make(self.device, np.array(place, float)) if outside else palpate.Plant(self.device, place)
 
     def loop(self, body, **settings):
-        return palpate.Loop(self.device.name, body, **settings)
+        return palpate.Loop(self.device.name, body, **{"stiffness": 500.0, "max_force": 5.0} | settings)
 
     def places(self, count):
         """Places in a ball about the middle of the workspace."""
@@ -123,7 +123,7 @@ def stiffest(case, outside, axis, damping):
         plant, speeds = case.plant(outside, AXES[axis] * 0.002), []
         look = lambda time: speeds.append(abs(plant.velocity[axis])) if time > rests else None
         play(loop, plant, lambda time: AXES[axis] * max(0.002 - 0.1 * time, -0.01), rests + 0.2, LIGHT, look)
-        # A twentieth of the speed at which it hits the wall.
+        # A twentieth of the speed of the hand's aim.
         return loop.fault == 0 and max(speeds) < 0.005
 
     if holds(MOST):

@@ -34,7 +34,7 @@ def delta(numbers, period, steps):
         ties += f"""
     <connect site1="end{leg}" site2="plate{leg}" {CLOSED}/>
     <joint joint1="back{leg}" joint2="tilt{leg}" polycoef="0 -1 0 0 0" {CLOSED}/>"""
-        motors += f'<general joint="hip{leg}" gainprm="1" dyntype="filterexact" dynprm="{numbers["time_constant"]}"/>'
+        motors += f'<general joint="hip{leg}" gainprm="1" dyntype="filterexact" dynprm="{numbers["time_constant"][leg]}"/>'
         sites += f'<site name="plate{leg}" pos="{at}"/>'
     axes = zip("xyz", ("1 0 0", "0 1 0", "0 0 1"))
     slides = "".join(f'<joint name="{name}" type="slide" axis="{axis}"/>' for name, axis in axes)
