@@ -42,6 +42,9 @@ pub enum BudgetError {
     /// There is no budget file outside of the repository.
     #[error(transparent)]
     NoRepository(#[from] NoRepository),
+    /// It pressed a tool into a body that it cannot count on.
+    #[error("{0}")]
+    Stopped(String),
     /// It said something else than figures.
     #[error("not a figure: {0:?}")]
     Line(String),
@@ -163,7 +166,13 @@ pub fn measure(board: Board, images: Images, progress: &Progress) -> Result<Figu
 /// If the program does not run to its end, or says something else than figures.
 pub fn on_file(board: Board, file: &Path, feature: &str, progress: &Progress) -> Result<Figures, BudgetError> {
     let choice = Choice { board, cold: Some(file.to_path_buf()), ..Choice::default() };
-    figures(&Program::prepare_with(&choice, "budget", &[feature], progress)?.run(Pace::Counting)?)
+    let said = Program::prepare_with(&choice, "budget", &[feature], progress)?.run(Pace::Counting);
+    if let Err(SetUpError::Failed { output, .. }) = &said
+        && let Some(reason) = output.lines().find_map(|line| line.strip_prefix("stopped: "))
+    {
+        return Err(BudgetError::Stopped(reason.to_owned()));
+    }
+    figures(&said?)
 }
 
 /// The lines `"name" = count`.

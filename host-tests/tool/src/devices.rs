@@ -2,8 +2,8 @@
 
 use anyhow::{Context, ensure};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use palpate_sim::devices::OwnDevice;
 pub use palpate_sim::devices::{DEVICES, Preset, ShippedDevice, named, own_device};
+use palpate_sim::devices::{DeviceFileError, OwnDevice};
 use std::ffi::OsStr;
 use std::path::Path;
 
@@ -79,8 +79,10 @@ impl TypedValueParser for NameOrFile {
         }
         let is_path = path.extension().is_some() || path.components().count() > 1;
         if is_path && named(&value.to_string_lossy()).is_none() {
-            let what = format!("{}: the name of a device file ends in .toml; rename it\n", path.display());
-            return Err(clap::Error::raw(clap::error::ErrorKind::ValueValidation, what).with_cmd(command));
+            let what = DeviceFileError::Kind(path.display().to_string());
+            return Err(
+                clap::Error::raw(clap::error::ErrorKind::ValueValidation, format!("{what}\n")).with_cmd(command)
+            );
         }
         // Every other name is the table's.
         PossibleValuesParser::new(self.names()).map(|name| named(&name)).parse_ref(command, argument, value)
@@ -101,7 +103,7 @@ pub fn own(device: &Path) -> anyhow::Result<OwnDevice> {
     Ok(match named(&name) {
         Some(shipped) => {
             let file = shipped.file().with_context(|| {
-                format!("{name} has less than three joints, and so no device file; `--out device.h` takes it")
+                format!("{name} has fewer than three joints, and so no device file; `palpate device {name} --out device.rs` writes its constant")
             })?;
             OwnDevice::new(file, &name)?
         }

@@ -142,6 +142,12 @@ impl ShapedTool {
 
     /// In words.
     pub fn name(&self) -> String {
+        let friction = if self.friction > 0.0 { format!(", friction {}", self.friction) } else { String::new() };
+        format!("{}{friction}, on a gimbal; turned at up to {} rad/s", self.shape(), self.turn)
+    }
+
+    /// Its shape alone.
+    pub fn shape(&self) -> String {
         let mm = |length: f32| (f64::from(length) * 1e6).round() / 1e3;
         let radius = mm(self.radius_m);
         let core = match self.core {
@@ -149,8 +155,7 @@ impl ShapedTool {
             CoreOf::Segment(half) => format!("capsule, half length {} mm", mm(half)),
             CoreOf::Box([x, y, z]) => format!("box, half lengths {} × {} × {} mm", mm(x), mm(y), mm(z)),
         };
-        let friction = if self.friction > 0.0 { format!(", friction {}", self.friction) } else { String::new() };
-        format!("{core}, radius {radius} mm{friction}, on a gimbal; turned at up to {} rad/s", self.turn)
+        format!("{core}, radius {radius} mm")
     }
 }
 

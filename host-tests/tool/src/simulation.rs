@@ -40,6 +40,10 @@ impl<S: Surface, K: Kinematics<3>, G: Guard<3, State: Any>, F: FrameTo<K>> Link 
         state.downcast_ref::<GuardState<3>>().map(GuardState::joints_seen)
     }
 
+    fn contacts_lost(&self) -> Option<u32> {
+        Some(self.state.contacts_lost())
+    }
+
     fn send_bytes(&mut self, bytes: &[u8]) -> Result<(), LinkError> {
         for byte in bytes {
             let received = self.receiver.feed(*byte);
@@ -136,6 +140,34 @@ pub struct Trace {
     pub samples: Vec<Sample>,
     /// When the polarity check confirmed each joint, seconds since the start, where the link shows it.
     pub confirmed: Option<[Option<f64>; 3]>,
+    /// Contacts released because they were too deep or no motion explained them, where the link shows it.
+    pub contacts_lost: Option<u32>,
+}
+
+impl Trace {
+    /// Counts the contacts that a board released, by the same loop on the host. After a fault there are none; where the
+    /// states differ without one, nothing is counted.
+    ///
+    /// # Errors
+    /// An error of the link.
+    pub fn count_contacts_lost(&mut self, host: &mut dyn Link, tool: Option<ShapedTool>) -> Result<(), LinkError> {
+        for sample in &self.samples {
+            if exchange(host, &sample.sensors, tool, sample.time)?.digest != sample.report.digest {
+                self.contacts_lost = self.contacts_lost.filter(|_| sample.report.fault != 0);
+                break;
+            }
+            self.contacts_lost = host.contacts_lost();
+        }
+        Ok(())
+    }
+}
+
+/// One tick of a loop, with a wrist's counts where the tool has a shape.
+fn exchange(link: &mut dyn Link, sensors: &Sensors, tool: Option<ShapedTool>, time: f64) -> Result<Report, LinkError> {
+    match tool {
+        None => link.exchange(sensors),
+        Some(tool) => link.exchange_with_wrist(&WristSensors { arm: *sensors, wrist: tool.counts(time) }),
+    }
 }
 
 /// How long a run is, and how the hand turns the tool.
@@ -167,10 +199,7 @@ pub fn run(
     for tick in 0..ticks {
         let sensors = Sensors { tick, counts: plant.counts(), enable: tick >= enable_at };
         let (time, probe) = (plant.time(), plant.position());
-        let report = match tool {
-            None => link.exchange(&sensors)?,
-            Some(tool) => link.exchange_with_wrist(&WristSensors { arm: sensors, wrist: tool.counts(time) })?,
-        };
+        let report = exchange(link, &sensors, tool, time)?;
         for (when, seen) in confirmed.iter_mut().flatten().zip(link.joints_seen().into_iter().flatten()) {
             *when = when.or(seen.then_some(time));
         }
@@ -178,5 +207,5 @@ pub fn run(
         plant.advance(report.duties);
         progress(tick + 1);
     }
-    Ok(Trace { rate, samples, confirmed })
+    Ok(Trace { rate, samples, confirmed, contacts_lost: link.contacts_lost() })
 }

@@ -13,12 +13,13 @@ use clap::Args;
 use glam::DVec3;
 use palpate::body::{Body, TickLimit, TickWork};
 use palpate::math::Vec3;
-use palpate::patch::Patch as _;
+use palpate::patch::{Patch as _, SplinePatch};
 use palpate_bake::body::{BakedBody, BodyBytes};
 use palpate_bake::file::FileFault;
 use palpate_bake::graph;
 use palpate_bake::source::{self, Origin};
 use palpate_bake::survey::Verdict;
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -34,7 +35,7 @@ pub(super) const MAX_MARGIN: f64 = 30.0;
 ///
 /// A name that ends in .palp gives a binary body file, for palpate::body::Body::from_bytes and every command that takes
 /// a model; box.h gives the same as an array of C, box_palp, with BOX_FACES and BOX_EDGES for its buffer and BOX_TOP, a
-/// point of its top near the middle, m.
+/// point of its top, away from rims, m.
 ///
 /// --soft: the body deforms. Of a closed body of one elastic material (youngs_modulus_pa, poissons_ratio, density_kg_per_m3,
 /// damping_ratio) the modes of lowest frequency that a quadratic displacement of space holds go to a modes file, beside
@@ -133,6 +134,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
             out_file: &file_name(out)?,
             model: loaded.file.bytes(),
             centre: loaded.model.centre,
+            limit,
         };
         let mut text = source::source(&origin, &loaded.model, &loaded.body)?;
         if let Some(soft) = &soft {
@@ -155,7 +157,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
             None if is_body => String::new(),
             None => table_report::of_patches(&loaded.surveys())?,
         };
-        let text = text + &table_report::of_tick(&tables, limit)? + &table_report::on_boards(bytes(&loaded))?;
+        let text = text + &table_report::of_tick(&tables, limit, true)? + &table_report::on_boards(bytes(&loaded))?;
         // A file has a locator even of a single patch.
         let as_file = if is_body { file(&loaded)? } else { file_of(&arguments.model)? };
         print((text + &table_report::as_file(as_file.len(), &loaded.body)?).as_bytes())?;
@@ -234,8 +236,13 @@ pub(super) fn baked(path: &Path, out_file: &str) -> anyhow::Result<Baked> {
         let progress = |done, all| bar.tell("cells of space", done, all);
         loaded.body = loaded.file.located(loaded.body, &options, None, &progress)?;
     }
-    let origin =
-        Origin { model_file: &loaded.file.name, out_file, model: loaded.file.bytes(), centre: loaded.model.centre };
+    let origin = Origin {
+        model_file: &loaded.file.name,
+        out_file,
+        model: loaded.file.bytes(),
+        centre: loaded.model.centre,
+        limit: TickLimit::BENCH,
+    };
     let source = source::source(&origin, &loaded.model, &loaded.body)?;
     let patches = loaded.body.faces.iter().map(|face| face.patch.to_patch()).collect::<Result<Vec<_>, _>>()?;
     let middle = felt::middle(patches.iter());
@@ -283,7 +290,7 @@ fn array(file: &[u8], body: &BakedBody, header: &Path) -> anyhow::Result<String>
     let mut text = format!(
         "// A body's file as `palpate bake` wrote it.\n#pragma once\n#include <stdint.h>\n\n\
          #define {capitals}_FACES {}\n#define {capitals}_EDGES {}\n\
-         #define {capitals}_TOP {{{x:.6}f, {y:.6}f, {z:.6}f}} // of its top near the middle, m\n\n\
+         #define {capitals}_TOP {{{x:.6}f, {y:.6}f, {z:.6}f}} // of its top, away from rims, m\n\n\
          static const uint8_t {name}_palp[] __attribute__((aligned(4))) = {{\n",
         body.faces.len(),
         body.edges.len()
@@ -306,17 +313,50 @@ fn c_name(file: &Path) -> String {
     if name.starts_with(|first: char| first.is_ascii_alphabetic()) { name } else { format!("part_{name}") }
 }
 
-/// Of a grid of points of a body, that of the highest hundredth which is nearest to its middle from above, m.
+/// Cells of a body seen from above, along its longer side.
+const CELLS: i32 = 65;
+
+/// The point of the highest hundredth of a body that lies farthest from where the surface falls away, seen from above;
+/// of about as far ones the nearest to the middle, m.
 fn top(body: &BakedBody) -> anyhow::Result<Vec3> {
     let patches = body.faces.iter().map(|face| face.patch.to_patch()).collect::<Result<Vec<_>, _>>()?;
-    let grid = || (0..=32).flat_map(|i| (0..=32).map(move |j| (i as f32 / 32.0, j as f32 / 32.0)));
-    let points: Vec<_> = patches.iter().flat_map(|patch| grid().map(|(u, v)| patch.evaluate(u, v).point)).collect();
-    let low = points.iter().copied().fold(Vec3::INFINITY, Vec3::min);
-    let high = points.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
-    let (middle, floor) = (0.5 * (low + high), high.z - 0.01 * (high.z - low.z));
-    let aside = |point: &Vec3| (*point - middle).truncate().length_squared();
-    let highest = points.iter().filter(|point| point.z >= floor);
-    highest.min_by(|a, b| aside(a).total_cmp(&aside(b))).copied().context("a body without a finite point")
+    let grid = |patch: &SplinePatch<'static>, steps: u16| {
+        let (patch, share) = (*patch, move |step| f32::from(step) / f32::from(steps));
+        (0..=steps).flat_map(move |i| (0..=steps).map(move |j| patch.evaluate(share(i), share(j)).point))
+    };
+    let bounds = |points: &mut dyn Iterator<Item = Vec3>| {
+        points.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), point| (low.min(point), high.max(point)))
+    };
+    let (low, high) = bounds(&mut patches.iter().flat_map(|patch| grid(patch, 32)));
+    let (middle, floor, size) = (0.5 * (low + high), high.z - 0.01 * (high.z - low.z), high - low);
+    let (aside, cell) = (|point: Vec3| (point - middle).truncate().length_squared(), size.x.max(size.y) / CELLS as f32);
+    // The highest point in each cell; on a level face the one nearest to the cell's middle.
+    let mut seen = BTreeMap::new();
+    for patch in &patches {
+        let (low, high) = bounds(&mut grid(patch, 32));
+        // Some points in each of its cells, and those of the bounds.
+        let finer = (((high - low).truncate().max_element() / (8.0 * cell)).ceil() as u16).clamp(1, CELLS as u16 / 8);
+        for point in grid(patch, 32 * finer) {
+            let place = (point - middle).truncate() / cell;
+            let [i, j] = place.round().to_array().map(|index| index as i32);
+            let rank = point.z - 1e-3 * cell * place.distance_squared(place.round());
+            let held = seen.entry((i, j)).or_insert((rank, point));
+            if rank > held.0 {
+                *held = (rank, point);
+            }
+        }
+    }
+    // The outermost cells are beside the body.
+    let half = CELLS / 2 + 2;
+    let every = || (-half..=half).flat_map(|i| (-half..=half).map(move |j| (i, j)));
+    let top_at = |cell: (i32, i32)| seen.get(&cell).map(|(_, point)| *point).filter(|point: &Vec3| point.z >= floor);
+    let fallen: Vec<_> = every().filter(|cell| top_at(*cell).is_none()).collect();
+    let from_rim = |(i, j): (i32, i32)| fallen.iter().map(|(k, l)| (i - k).pow(2) + (j - l).pow(2)).min().unwrap_or(0);
+    let tops: Vec<_> = every().filter_map(|cell| Some((from_rim(cell), top_at(cell)?))).collect();
+    let farthest = tops.iter().map(|(distance, _)| *distance).max().unwrap_or_default();
+    let far = tops.iter().filter(|(distance, _)| f64::from(*distance).sqrt() >= 0.9 * f64::from(farthest).sqrt());
+    let nearest = far.min_by(|(_, a), (_, b)| aside(*a).total_cmp(&aside(*b)));
+    nearest.map(|(_, point)| *point).context("a body without a finite point")
 }
 
 fn has_ending(path: &Path, ending: &str) -> bool {

@@ -1,8 +1,9 @@
 //! `palpate budgets`: what the hot path costs on the emulated board, beside what it may cost.
 
 use super::bake;
-use crate::budgets::{Budget, Figures, Images, Verdict, measure, on_file};
+use crate::budgets::{Budget, BudgetError, Figures, Images, Verdict, measure, on_file};
 use crate::firmware::{BenchBoard, Board, Progress};
+use anyhow::anyhow;
 use clap::Args;
 use std::fmt::Write as _;
 use std::fs;
@@ -24,7 +25,8 @@ pub struct Arguments {
     #[arg(long, value_name = "MODEL", conflicts_with = "record")]
     cold: Option<PathBuf>,
     /// Instead: the servo tick of a ball (radius 3 mm), a capsule (18 mm) and a box (18, 12, 6 mm) with that radius, pressed
-    /// into each face of a model's body, and the rate that fits on each bench board
+    /// into each face of a model's body from 16 mm in front, where they are outside of it, and the rate that fits on each
+    /// bench board
     #[arg(long, value_name = "MODEL", conflicts_with_all = ["record", "cold"])]
     tool: Option<PathBuf>,
     /// Instead: the committed budget of the servo tick on every core
@@ -47,8 +49,15 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         let folder = tempfile::tempdir()?;
         let file = folder.path().join("cold.palp");
         fs::write(&file, bake::file_of(model)?)?;
-        let found = on_file(arguments.board, &file, feature, &Progress::new())?;
-        found.0.iter().for_each(|(name, count)| println!("{name:<45}  {count:>8}"));
+        let found = on_file(arguments.board, &file, feature, &Progress::new()).map_err(|error| match error {
+            BudgetError::Stopped(reason) => anyhow!(
+                "{}: {reason}; this tool does not suit this body: take a larger body or one of fewer patches, or try \
+                 another tool with `palpate demo --tool`",
+                model.display()
+            ),
+            error => error.into(),
+        })?;
+        found.0.iter().for_each(|(name, count)| println!("{name:<55}  {count:>8}"));
         if feature == "tool" && Board::CORTEX_F.contains(&arguments.board) {
             print!("{}", fits(&found));
         }

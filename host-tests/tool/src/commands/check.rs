@@ -129,7 +129,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let body = loaded.body.to_body().with_context(|| loaded.file.label.clone())?;
     let (fitted, boards) = (body.fitted(TickLimit::BENCH), TickLimit::BENCH);
     report += "\n";
-    report += &table_report::of_tick(&fitted, boards)?;
+    report += &table_report::of_tick(&fitted, boards, loaded.file.baked().is_some())?;
     if !fitted.fits(boards) {
         writeln!(
             report,
@@ -238,6 +238,15 @@ fn features(report: &mut String, body: &BakedBody) -> std::fmt::Result {
         topology.components(),
         if topology.is_closed() { "closed" } else { "open" },
         if body.is_convex { "convex" } else { "not known to be convex" }
+    )?;
+    let [low, high] = body.extent().map(|corner| (corner * 1e3).to_array());
+    let along = |axis: usize| format!("{} {:.3} to {:.3}", ["x", "y", "z"][axis], low[axis], high[axis]);
+    writeln!(
+        report,
+        "extent: {}, {}, {} mm, in the frame of its tables (a grid of points)",
+        along(0),
+        along(1),
+        along(2)
     )
 }
 
@@ -292,7 +301,7 @@ fn ride(report: &mut String, arguments: &Arguments, loaded: &Loaded) -> anyhow::
     let Lateness { ticks, most, excess } = Rides { count: rides, rate, speed, distance: 1e-3 * distance }.along(&body);
     writeln!(
         report,
-        "\n{rides} rides, {ticks} ticks, from {distance} mm in front, at {speed} m/s and {rate} Hz: the nearest point was late by \
+        "\nmeasured on {rides} rides, {ticks} ticks, from {distance} mm in front, at {speed} m/s and {rate} Hz: the nearest point was late by \
          {most} ticks ({:.2} ms) at most, until then up to {:.4} {} too far",
         1e3 * most as f32 / rate,
         f64::from(excess) * loaded.model.unit.per_metre(),
@@ -305,11 +314,16 @@ fn ride(report: &mut String, arguments: &Arguments, loaded: &Loaded) -> anyhow::
         )?;
     } else {
         let (candidates, pass) = (body.locator().longest_list(), body.audit_ticks());
-        let alone = body.with_effort(Effort::ONE).audit_ticks();
+        let (alone, fitted) = (body.with_effort(Effort::ONE).audit_ticks(), body.fitted(TickLimit::BENCH));
+        let [rides, boards] =
+            [body.effort(), fitted.effort()].map(|effort| format!("{},{}", effort.steps, effort.candidates));
         writeln!(
             report,
-            "the audit looks at all candidates of the probe's cell, {candidates} at most, within {pass} ticks ({:.0} ms) by construction, at effort 1,1 within {alone}",
-            1e3 * pass as f32 / rate
+            "proved: a pass of the audit looks at all candidates of the probe's cell, {candidates} at most, within {pass} ticks \
+             ({:.0} ms) at effort {rides}, that of these rides, within {} at {boards}, that of the bench boards, within \
+             {alone} at 1,1",
+            1e3 * pass as f32 / rate,
+            fitted.audit_ticks()
         )?;
     }
     Ok(())

@@ -3,8 +3,9 @@
 use super::demo_knob::recorded_of;
 use super::device::toml_of;
 use crate::commission::{
-    Device, EmulatedLine, Finding, GIVE, HostLine, Key, KeyHeld, Keyboard, Lab, Line, NoKey, Person, Planted,
+    Device, EmulatedLine, Finding, GIVE, HostLine, Key, KeyHeld, Keyboard, Lab, Line, MOVED, NoKey, Person, Planted,
     PlantedFault, PortLine, RATE, SimulatedHands, World, Zero, angle, begin_within, calibration, find, find_mounting,
+    said,
 };
 use crate::firmware::{Board, Choice, Program, Progress};
 use crate::knob;
@@ -13,7 +14,7 @@ use clap::Args;
 use palpate::commission::{Calibration, JogRefusal};
 use palpate::wire::{Calibrated, Reading};
 use palpate_sim::devices::{self, DeviceFile, HomingEntry, OwnDevice};
-use palpate_sim::plant::DialSettings;
+use palpate_sim::knob::dial;
 use std::io::{IsTerminal, Write as _, stdout};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -146,9 +147,9 @@ fn record_cogging(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         println!(
             "The field leads the dial round once and a quarter, there and back, in three minutes. Let go of the dial."
         );
-        (knob::record(&mut device, &mut Person::new(Vec::new())?)?, "this board's motor")
+        (knob::record(&mut device, &mut Person::new(Vec::new()))?, "this board's motor")
     } else if arguments.host {
-        (recorded_of(DialSettings::gimbal_knob())?, "the simulated gimbal motor")
+        (recorded_of(dial())?, "the simulated gimbal motor")
     } else {
         bail!("a knob needs --port, or --host for the simulated one");
     };
@@ -207,12 +208,13 @@ fn lab(arguments: &Arguments, own: &OwnDevice) -> anyhow::Result<Lab> {
         // Looking takes nobody at the keys, and holds none.
         let key: Box<dyn Key> = if arguments.watch.is_some() { Box::new(NoKey) } else { Box::new(Keyboard::new()?) };
         let names = own.file.joint.iter().map(|joint| joint.name.clone()).collect();
-        let hands = Box::new(Person::new(names)?);
+        let hands = Box::new(Person::new(names));
         let device = Device::connect(Box::new(PortLine::open(path, arguments.baud)?), key)?;
         return Ok(Lab { device, hands });
     }
     let sound = Planted::sound(own.plant).wired(&own.file);
     let planted = arguments.plant.iter().fold(sound, |planted, fault| planted.with(*fault));
+    let planted = if arguments.jog.is_some() { planted.carried() } else { planted };
     let world = World::shared(planted)?;
     let line: Box<dyn Line> = match arguments.emulator {
         Some(board) => {
@@ -232,32 +234,76 @@ fn lab(arguments: &Arguments, own: &OwnDevice) -> anyhow::Result<Lab> {
 /// Shows what the encoders say, and drives nothing.
 fn watch(device: &mut Device, file: &DeviceFile, seconds: f64) -> anyhow::Result<ExitCode> {
     let mut shown = Shown::until(seconds)?;
+    let first = device.step(None)?.counts;
+    let (mut last, mut range) = (first, first.map(|count| [count; 2]));
     while shown.goes_on() {
         let reading = device.step(None)?;
         shown.show(file, &reading)?;
+        last = reading.counts;
+        for ([least, most], count) in range.iter_mut().zip(last) {
+            (*least, *most) = (count.min(*least), count.max(*most));
+        }
     }
-    shown.end()
+    println!();
+    for (input, [least, most]) in range.into_iter().enumerate() {
+        println!("input {input}: {} at the start, {least} to {most}, {} at the end", first[input], last[input]);
+    }
+    Ok(ExitCode::SUCCESS)
 }
 
-/// Drives one motor while the keys are held.
+/// Drives one motor while the keys are held, and prints what it moved each time they are let go.
 fn jog(lab: &mut Lab, file: &DeviceFile, (output, share): (u8, f64), seconds: f64) -> anyhow::Result<ExitCode> {
     if !share.is_finite() || share.abs() > 0.4 {
         bail!("--duty {share}: must be between −0.4 and 0.4");
     }
     lab.hands.enable(false)?;
     lab.device.wait_for_release()?;
+    lab.hands.carry(output)?;
     lab.hands.enable(true)?;
     let mut shown = Shown::until(seconds)?;
-    while shown.goes_on() {
-        let reading = lab.device.step(Some((output, (share * 32_767.0) as i16)))?;
+    let (mut at_rest, mut was_live, mut moved) = (lab.device.step(None)?, false, None);
+    loop {
+        let goes_on = shown.goes_on();
+        let reading = lab.device.step(goes_on.then_some((output, (share * 32_767.0) as i16)))?;
         shown.show(file, &reading)?;
-        if reading.refusal != 0 {
-            // It stands until the key is let go.
-            lab.device.step(None)?;
+        if !reading.live {
+            if was_live {
+                let sentence = motion(file, at_rest.counts, reading.counts);
+                println!("\noutput {output} at duty {share}: {sentence}");
+                moved = Some(sentence);
+            }
+            at_rest = reading;
+        }
+        was_live = reading.live;
+        // A limit stands until both keys are let go: the next jog is another one.
+        let is_stopped = reading.refusal != 0;
+        if is_stopped || !goes_on {
+            let reasons = said(&reading);
+            let remedy = if is_stopped { "" } else { ": hold both keys" };
+            moved.with_context(|| format!("output {output} was not driven{reasons}{remedy}"))?;
+            if is_stopped {
+                println!("stopped by the device{reasons}");
+            }
+            return Ok(ExitCode::SUCCESS);
         }
     }
-    lab.device.step(None)?;
-    shown.end()
+}
+
+/// The inputs that counted on, by more than a bent support does, with the joints that the file has on them.
+fn motion(file: &DeviceFile, before: [i32; 3], now: [i32; 3]) -> String {
+    let inputs = file.joint.iter().enumerate().filter_map(|(index, joint)| {
+        let radians = angle(file, index, now) - angle(file, index, before);
+        let input = joint.encoder.channel;
+        let counts = now[input].wrapping_sub(before[input]);
+        let (name, degrees) = (&joint.name, radians.to_degrees());
+        (radians.abs() > MOVED)
+            .then(|| format!("input {input} moved by {counts:+} counts (joint {name} {degrees:+.2}°)"))
+    });
+    let inputs: Vec<_> = inputs.collect();
+    if inputs.is_empty() {
+        return "no input moved; raise --duty, at most to 0.4, or check the motor supply".to_owned();
+    }
+    inputs.join(", ")
 }
 
 /// A line that is updated in place on a terminal, and printed again elsewhere.
@@ -305,10 +351,5 @@ impl Shown {
             writeln!(output, "{line}")?;
         }
         Ok(output.flush()?)
-    }
-
-    fn end(self) -> anyhow::Result<ExitCode> {
-        println!();
-        Ok(ExitCode::SUCCESS)
     }
 }

@@ -56,10 +56,13 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
             continue;
         }
         let progress = Progress::new();
+        let tell = |what: &str| eprintln!("{}: running {what}, instruction by instruction: minutes", board.core());
         let mut found = if arguments.soft {
             Vec::new()
         } else {
-            estimate(&Program::prepare(board, "budget", &[], &progress)?, core, &ROOTS)?
+            let program = Program::prepare(board, "budget", &[], &progress)?;
+            tell("the parts of a tick");
+            estimate(&program, core, &ROOTS)?
         };
         let is_soft = |feature: &str| feature.starts_with("soft");
         let is_wanted = |feature| board == Board::M4 && (is_soft(feature) || !arguments.soft);
@@ -70,6 +73,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
             } else {
                 Program::prepare(board, "budget", &[feature], &progress)?
             };
+            tell(title);
             found.extend(estimate(&program, core, &[Root { title, ..SERVO }])?);
         }
         println!("{}: estimated cycles; microseconds on a {chip} at {} MHz", board.core(), clock / 1e6);

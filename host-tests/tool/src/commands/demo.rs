@@ -66,7 +66,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         rate::in_time(&arguments.scene, &mut scene, |scene| on_board(arguments, scene), |run| &run.trace)?
     };
     let mut figures = scene.walls();
-    figures.extend(Summary::new(&run.trace).rows());
+    let summary = Summary::new(&run.trace);
+    figures.extend(summary.rows());
+    let too_expensive = rate::too_expensive(&scene, &summary);
+    figures.extend(too_expensive.clone().map(|verdict| ("verdict", verdict)));
     figures.extend(scene.withheld(&run.trace));
     figures.extend(run.sizes);
     // What the page has no device or body for is in the report alone.
@@ -97,7 +100,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         println!("  {name:<20} {value}");
     }
     println!("  {:<20} {}", "report", arguments.report.display());
-    Ok(ExitCode::SUCCESS)
+    Ok(if too_expensive.is_some() { ExitCode::FAILURE } else { ExitCode::SUCCESS })
 }
 
 fn folder_of(file: &Path) -> &Path {
@@ -171,8 +174,9 @@ fn run_firmware(arguments: &Arguments, scene: &Scene, firmware: &Firmware) -> an
     let mut plant = arguments.scene.plant(scene)?;
     let mut emulator = firmware.start(transport)?;
     let bar = progress::ticks(scene.ticks);
-    let trace = simulation::run(&mut emulator, &mut plant, scene.span(), |done| bar.tell(done))?;
+    let mut trace = simulation::run(&mut emulator, &mut plant, scene.span(), |done| bar.tell(done))?;
     drop(bar);
+    trace.count_contacts_lost(scene.host_loop()?.as_mut(), scene.tool)?;
     // As a device would carry it: files of the host are the emulator's.
     let image = firmware.images.of(Transport::Uart);
     let mut sizes = vec![("flash", format!("{} bytes", image.flash)), ("RAM, static", format!("{} bytes", image.ram))];

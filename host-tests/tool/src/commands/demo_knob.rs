@@ -5,7 +5,8 @@ use crate::commission::{Device, KeyHeld};
 use crate::firmware::{Board, Image, Link as _, LinkError, Program, Progress, SetUpError, Transport};
 use crate::knob::turning::{HostEnd, TICKS, Turned, curve, size, turn, way, worst_detent};
 use crate::knob::{
-    DIAL_ZERO, FEELS, KnobLine, NAMES, Recording, SEARCH, SharedKnob, TOLD_OF_SUPPLY, device, record, recorded, servo,
+    COMMUTATION, DIAL_ZERO, FEELS, KnobLine, MOTOR, NAMES, PROTECTION, Recording, SEARCH, SharedKnob, TOLD_OF_SUPPLY,
+    device, dial, record, recorded, servo,
 };
 use crate::plot::{Area, Axes, Axis, FIGURE, Ink, Key, Mark, Svg, at_widths, draw};
 use crate::report::{Report, Section};
@@ -59,7 +60,7 @@ pub fn run(board: Board, host: bool, file: &Path, picture: Option<&Path>) -> any
 pub fn on_host(compensated: bool) -> anyhow::Result<Run> {
     let cogging = recorded::COGGING.filter(|_| compensated);
     let mut end = HostEnd::new(servo(Box::leak(Box::new(device(cogging))), SEARCH, TOLD_OF_SUPPLY));
-    let turned = turn(DialSettings::gimbal_knob(), |sensors| Ok(end.exchange(sensors)), |_| ())?;
+    let turned = turn(dial(), |sensors| Ok(end.exchange(sensors)), |_| ())?;
     Ok(Run { turned, image: None })
 }
 
@@ -81,7 +82,7 @@ pub fn on_board(board: Board, compensated: bool) -> anyhow::Result<Run> {
     let mut emulator = program.start_over(Transport::Fifo)?;
     let bar = progress::ticks(TICKS);
     let exchange = |sensors: &_| -> Result<_, LinkError> { emulator.exchange(sensors) };
-    let turned = turn(DialSettings::gimbal_knob(), exchange, |done| bar.tell(done))?;
+    let turned = turn(dial(), exchange, |done| bar.tell(done))?;
     Ok(Run { turned, image: Some(program.image.clone()) })
 }
 
@@ -117,6 +118,7 @@ fn figures(with: &Run, without: &Run) -> Vec<(&'static str, String)> {
     );
     let mut figures = vec![
         ("ticks", format!("{} at {} Hz", turned.len(), crate::knob::SETTINGS.rate_hz)),
+        ("motor", motor()),
         ("rotor aligned", aligned.map_or_else(|| "no".to_owned(), |tick| format!("after {:.2} s", turned[tick].time))),
         (
             "detents",
@@ -141,6 +143,19 @@ fn figures(with: &Run, without: &Run) -> Vec<(&'static str, String)> {
         figures.push(("RAM, static", format!("{} bytes", image.ram)));
     }
     figures
+}
+
+/// The motor's torque at full duty and continuously, at most the feels' limit.
+fn motor() -> String {
+    let full = MOTOR.motors[0].torque_at_full_n_m;
+    let most = full.min(MOTOR.max_force_n * MOTOR.kinematics.radius_m);
+    let continuous = most.min(full * PROTECTION.motors[0].continuous);
+    format!(
+        "{} pole pairs, {:.0} mN·m, {:.0} continuous",
+        COMMUTATION.pole_pairs,
+        1e3 * f64::from(most),
+        1e3 * f64::from(continuous)
+    )
 }
 
 /// Over the digests of all ticks: two runs that agree in it agreed in every bit.
@@ -238,7 +253,7 @@ fn chart(svg: &mut Svg, area: Area, title: &str, [x, y]: [&str; 2], lines: &[Cur
 /// # Errors
 /// A rotor that does not follow its field.
 pub fn recorded_source() -> anyhow::Result<String> {
-    let settings = DialSettings::gimbal_knob();
+    let settings = dial();
     debug_assert!((settings.sensor.angle_at_zero - DIAL_ZERO).abs() < 1e-12);
     Ok(recorded_of(settings)?.source("the simulated gimbal motor"))
 }

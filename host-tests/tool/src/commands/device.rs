@@ -4,7 +4,7 @@
 use crate::devices;
 use anyhow::{Context, bail};
 use clap::Args;
-use palpate_sim::devices::{OwnDevice, c_header, c_preset, source};
+use palpate_sim::devices::{OwnDevice, c_header, c_preset, rust_preset, source};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -16,7 +16,7 @@ use std::process::ExitCode;
 pub struct Arguments {
     /// Device file (my.toml), or the name of a shipped device
     device: PathBuf,
-    /// Output: constants of Rust (device.rs) or C (device.h), or a device file (my.toml)
+    /// Output: constants of Rust (device.rs) or C (device.h); of three joints also a device file (my.toml)
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
 }
@@ -27,10 +27,15 @@ pub struct Arguments {
 /// The refused entry of the file; no output is written then.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let name = arguments.device.to_string_lossy();
-    let is_c = arguments.out.extension().is_some_and(|extension| extension == "h");
+    let extension = arguments.out.extension().and_then(|extension| extension.to_str());
     // One and two joints have no device file.
-    if let (true, Some(shipped)) = (is_c, devices::named(&name).filter(|shipped| shipped.file().is_none())) {
-        write(&arguments.out, &c_preset(shipped))?;
+    if let Some(shipped) = devices::named(&name).filter(|shipped| shipped.file().is_none()) {
+        let text = match extension {
+            Some("rs") => rust_preset(shipped),
+            Some("h") => c_preset(shipped),
+            _ => bail!("{name} has fewer than three joints, and so no device file; --out must end in .rs or .h"),
+        };
+        write(&arguments.out, &text)?;
         println!("{name}: {} joints, written to {}", shipped.preset.feeds().len(), arguments.out.display());
         return Ok(ExitCode::SUCCESS);
     }
@@ -40,7 +45,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     if device.is_some() && device == out {
         bail!("{name}: --out is the device file itself, which is not overwritten; give another name");
     }
-    let text = match arguments.out.extension().and_then(|extension| extension.to_str()) {
+    let text = match extension {
         Some("rs") => source(&own, &name),
         Some("h") => c_header(&own, &name),
         Some("toml") => noted(&toml_of(&own, &format!("Written by `palpate device` from {name}."))?),
@@ -88,7 +93,7 @@ const NOTES: &[(&str, &str)] = &[
     ("thigh_moment", "scales: kg·m; `commission --weigh` corrects it"),
     ("min_margin", "keep, scaled with the links: m/rad, below it (near a singularity) no force"),
     ("max_joint_rate", "keep: rad/s, faster is a sensor fault"),
-    ("max_force", "keep, a tenth of it for the first force: N"),
+    ("max_force", "keep, 0.6 of it for the first force: N"),
     ("max_stiffness", "measure: N/m, `palpate zwidth`, then the bench"),
     ("max_damping", "keep: N·s/m; raise it only on the bench, in steps, until it buzzes"),
     ("max_probe_speed", "keep: m/s, faster under force is a fault"),
@@ -109,6 +114,7 @@ const NOTES: &[(&str, &str)] = &[
     ("max_rate", "keep: rad/s, faster under force is a fault"),
     ("supply", "yours: V"),
     ("resistance", "data sheets: ohms of winding, brushes and bridge"),
+    ("inductance", "data sheet: H, of the winding; simulation alone"),
     ("back_emf_share", "keep, 0.8 if unknown"),
 ];
 
@@ -137,8 +143,12 @@ mod tests {
     fn each_entry_of_a_file_has_its_source_once() {
         let mut shipped: Vec<_> = devices::DEVICES.iter().filter_map(devices::ShippedDevice::file).collect();
         assert_eq!(shipped.len(), 4);
-        shipped[0].joint[0].motor.bridge =
-            Some(palpate_sim::devices::BridgeEntry { supply: 24.0, resistance: 0.7, back_emf_share: 0.8 });
+        shipped[0].joint[0].motor.bridge = Some(palpate_sim::devices::BridgeEntry {
+            supply: 24.0,
+            resistance: 0.7,
+            inductance: Some(1.2e-4),
+            back_emf_share: 0.8,
+        });
         for file in shipped {
             let text = noted(&toml::to_string(&file).expect("a file"));
             let (noted, bare): (Vec<_>, Vec<_>) =

@@ -1,8 +1,8 @@
 //! `palpate feel`: what a hand feels of the loop on a device, against what people can feel.
 
-use super::feel_clean;
 use super::felt::Felt;
 use super::smoothing::Smoothing;
+use super::{feel_clean, options};
 use crate::devices::{self, Arms, ShippedDevice};
 use crate::feel::table::Worst;
 use crate::feel::{Crossed, ENCODERS, RATES, Row, Wish, plot, rows, table};
@@ -23,19 +23,19 @@ pub struct Arguments {
     /// Device: a name, your own file (my.toml), or `all`
     #[arg(long, default_value = "all", value_parser = devices::arms_parser())]
     device: Arms,
-    /// Body whose edges are crossed (three joints): a model file, or the name of a shipped model
-    #[arg(long, default_value = "capped_box")]
-    model: PathBuf,
+    /// Body whose edges are crossed (three joints): a model file, or the name of a shipped model; default: capped_box
+    #[arg(long)]
+    model: Option<PathBuf>,
     /// Modes file of a body that deforms, as `palpate bake` writes it
     #[arg(long, value_name = "MODES.toml", conflicts_with_all = ["clean", "recording"])]
     modes: Option<PathBuf>,
     /// Servo rate, Hz
     #[arg(long, default_value_t = 4_000.0)]
     rate: f32,
-    /// Stiffness of the surface, N/m, up to the device's maximum; default: recommended for the device
+    /// Stiffness of the surface, N/m; `--device all`: at most each one's maximum; default: recommended for the device
     #[arg(long)]
     stiffness: Option<f32>,
-    /// Damping of the surface, N·s/m, up to the device's maximum; default: recommended for the device
+    /// Damping of the surface, N·s/m; `--device all`: at most each one's maximum; default: recommended for the device
     #[arg(long)]
     damping: Option<f32>,
     /// Corner frequency of the velocity filter, Hz; default: recommended for the device
@@ -56,9 +56,9 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE.csv")]
     threshold: Option<PathBuf>,
     /// Recording of every tick to evaluate, from `sim --csv`, of one device and one model
-    #[arg(long, value_name = "FILE.csv", conflicts_with = "model")]
+    #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["model", "rate", "stiffness", "damping", "velocity_corner", "rendering", "out"])]
     recording: Option<PathBuf>,
-    /// Folder for figures (CSV) and report (HTML)
+    /// Folder for figures (CSV) and report (HTML); none with --recording
     #[arg(long, default_value = "palpate-report/feel")]
     out: PathBuf,
 }
@@ -76,13 +76,14 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         print_recording(path, device, &threshold)?;
         return Ok(ExitCode::SUCCESS);
     }
+    check(arguments)?;
     if arguments.clean {
         let (rates, encoders) = if arguments.rates.is_empty() {
             (&RATES[..], &ENCODERS[..])
         } else {
             (&arguments.rates[..], &ENCODERS[..1])
         };
-        ensure!(rates.iter().all(|rate| (1.0..=100_000.0).contains(rate)), "--rates are from 1 Hz to 100 kHz");
+        ensure!(rates.iter().all(|rate| (20.0..=100_000.0).contains(rate)), "--rates are from 20 Hz to 100 kHz");
         let devices = arguments.device.each();
         return feel_clean::run(
             &devices,
@@ -92,33 +93,64 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
             &arguments.out,
         );
     }
-    let file = ModelFile::read(&arguments.model)?;
-    let felt = Felt::read(&file.model()?, &file, &arguments.model, None, arguments.modes.as_deref())?;
+    let model = arguments.model.as_deref().unwrap_or(Path::new("capped_box"));
+    let file = ModelFile::read(model)?;
+    let felt = Felt::read(&file.model()?, &file, model, None, arguments.modes.as_deref())?;
     let body = match &felt {
         Felt::Body { body, soft, .. } => {
             let soft = soft.as_ref().map(|soft| soft.on(body, arguments.rate)).transpose()?;
             Some(Crossed { body, soft, origin: -felt.middle() })
         }
-        Felt::Patch { .. } | Felt::Scene(_) => None,
+        Felt::Patch { .. } | Felt::Scene(_) => {
+            println!("{}: one patch, which has no edge to cross", file.label);
+            None
+        }
     };
     let mut all: Vec<(&str, Vec<Row>)> = Vec::new();
     for device in arguments.device.each() {
         let wish = wish(arguments, device);
         let settings = wish.settings(device);
         println!(
-            "{}: {} N/m, {} N·s/m, {} kHz; steps and ripple in mN",
+            "{}: {} N/m{}, {} N·s/m{}, {} kHz; steps and ripple in mN",
             device.name,
             settings.stiffness_n_per_m,
+            its_maximum(settings.stiffness_n_per_m, wish.stiffness),
             settings.damping_n_s_per_m,
+            its_maximum(settings.damping_n_s_per_m, wish.damping),
             settings.rate_hz / 1_000.0
         );
         let rows = rows(device, body, &wish, &threshold)?;
-        println!("{}", table::text(&rows));
+        println!("{}{}", table::text(&rows), table::contacts_lost(&rows));
         all.push((device.name, rows));
     }
     println!("{}", Worst::heading());
     all.iter().for_each(|(name, rows)| println!("{}", Worst::of(rows).line(name)));
     write(&all, &threshold, arguments)
+}
+
+/// Refuses options that would not act: beyond the limits of a single device, or for another number of joints.
+fn check(arguments: &Arguments) -> anyhow::Result<()> {
+    for device in arguments.device.each() {
+        let wished = wish(arguments, device).wished(device);
+        match arguments.device {
+            Arms::One(_) => options::check(&wished, device)?,
+            Arms::All => wished.check(f32::MAX, f32::MAX)?,
+        }
+    }
+    if let Arms::One(device) = arguments.device {
+        let (name, joints) = (device.name, device.preset.feeds().len());
+        ensure!(
+            joints == 3 || (arguments.model.is_none() && arguments.modes.is_none()),
+            "--model and --modes need three joints; {name} has {joints}: leave them out"
+        );
+        ensure!(joints > 1 || !arguments.clean, "--clean needs two joints; {name} has one, and nothing slides");
+    }
+    Ok(())
+}
+
+/// Marks a setting that a device of `all` limits.
+fn its_maximum(set: f32, wished: f32) -> &'static str {
+    if set < wished { " (its maximum)" } else { "" }
 }
 
 /// The settings recommended for a device, with the options that were given.
@@ -190,9 +222,13 @@ fn write(all: &[(&str, Vec<Row>)], threshold: &Threshold, arguments: &Arguments)
     for (name, rows) in all {
         sections.push(Section {
             heading: (*name).to_owned(),
-            note: "Steps and ripple in mN. Below: how far the probe moves under a hand that rests or slides, and what \
-                   people feel (approximated)."
-                .to_owned(),
+            note: format!(
+                "Steps and ripple in mN. Below: how far the probe moves under a hand that rests or slides, and what \
+                 people feel (approximated). {}",
+                table::contacts_lost(rows)
+            )
+            .trim_end()
+            .to_owned(),
             table: Some(table::table(rows)),
             drawing: Some(at_widths(460.0, |svg, area| plot::spectra(svg, area, rows, threshold))),
         });

@@ -9,7 +9,7 @@ use crate::page::{RecordedBody, RecordedScene};
 use crate::plot::View;
 use anyhow::Context;
 use glam::DVec3;
-use palpate::body::{Body, Effort};
+use palpate::body::{Body, Effort, TickLimit};
 use palpate::math::Vec3;
 use palpate::patch::Patch as _;
 use palpate::scene::{Limits, Motion, Scene};
@@ -84,6 +84,7 @@ impl FeltScene {
                 out_file: "body.rs",
                 model: model_file.bytes(),
                 centre: model.centre,
+                limit: TickLimit::BENCH,
             };
             let mut table = body_source(&origin, &baked, &baked.labels(&model))?;
             if entry.modes.is_some() {

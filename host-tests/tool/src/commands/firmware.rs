@@ -4,17 +4,17 @@ use super::felt::Felt;
 use super::output::write_whole;
 use super::{bake, long_calls, options};
 use crate::commission::RATE;
-use crate::firmware::{self, AnyBoard, BenchBoard, Kind, Place, Progress, SetUpError, Toolchain, choose_body};
+use crate::firmware::{self, AnyBoard, BenchBoard, Board, Kind, Place, Progress, SetUpError, Toolchain, choose_body};
 use crate::models::ModelFile;
 use crate::{devices, repository};
-use anyhow::{Context, ensure};
+use anyhow::{Context, bail, ensure};
 use clap::Args;
 use glam::DVec3;
 use palpate::device::Encoder;
 use palpate::math::Vec3;
 use palpate::servo::{FrameBridge, Settings};
 use palpate_bench::sensors::{max_step, ticks_per_round};
-use palpate_sim::devices::{DeviceFile, HomingEntry, JointEntry, OwnDevice, settings_source, source};
+use palpate_sim::devices::{DeviceFile, HomingEntry, JointEntry, OwnDevice, own_device, settings_source, source};
 use std::f64::consts::TAU;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -54,6 +54,7 @@ pub struct Arguments {
 /// The cause, for the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     arguments.check_rate_and_place()?;
+    arguments.check_programs()?;
     let progress = Progress::new();
     let device = arguments.device.as_deref().map(|device| constants(arguments.board, device, arguments.rate));
     let device = device.transpose()?;
@@ -105,7 +106,13 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         print!("{}", firmware::report(board, arguments.kind(), &image)?);
         println!("image: {}\nto flash it: {}", image.display(), board.flashing(&image));
         if let Some(device) = &arguments.device {
-            println!("{}", inside(&devices::own(device)?, arguments.rate));
+            let own = devices::own(device)?;
+            println!("{}", inside(&own, arguments.rate));
+            let (rate, max_force) =
+                (arguments.rate.unwrap_or(4_000) as f32, own.preset.recommended().settings.max_force_n);
+            if let Some(warning) = options::weak_pulses(own_device(&own, ""), rate, max_force) {
+                println!("warning: polarity check: {warning}");
+            }
         }
     }
     Ok(ExitCode::SUCCESS)
@@ -136,6 +143,38 @@ impl Arguments {
             rates.end()
         );
         Ok(())
+    }
+
+    /// Whether it is an emulated board whose core does not run all programs.
+    fn has_few_programs(&self) -> bool {
+        matches!(self.board, AnyBoard::Emulated(board) if !Board::CORTEX_F.contains(&board))
+    }
+
+    /// Refuses a program that the board's core cannot run.
+    fn check_programs(&self) -> anyhow::Result<()> {
+        let joined = self.cargo.iter().filter_map(|argument| argument.strip_prefix("--bin="));
+        let named = self.after("--bin").chain(joined).chain(self.accepts().then_some("accept"));
+        let all =
+            self.cargo.iter().map(String::as_str).filter(|argument| ["--bins", "--all-targets"].contains(argument));
+        let mut missing = named.filter(|name| Board::ON_CORTEX_F.contains(name)).chain(all);
+        if let Some(missing) = missing.next().filter(|_| self.has_few_programs()) {
+            bail!(
+                "{missing}: on {} there are {} without a feature; the others need the interrupts of m4, m7 or m33",
+                self.board.name(),
+                Board::ON_ANY_CORE.join(", ")
+            );
+        }
+        Ok(())
+    }
+
+    /// The programs to name to cargo, which without a target would build all.
+    fn programs(&self) -> impl Iterator<Item = &'static str> {
+        let chooses = |argument: &String| {
+            ["--bin", "--lib", "--example", "--test", "--bench"].iter().any(|flag| argument.starts_with(flag))
+        };
+        let builds = matches!(self.cargo[0].as_str(), "build" | "check" | "clippy");
+        let are_named = self.has_few_programs() && builds && !self.cargo.iter().any(chooses);
+        Board::ON_ANY_CORE.into_iter().filter(move |_| are_named).flat_map(|program| ["--bin", program])
     }
 
     /// The arguments of cargo that follow a flag, each time.
@@ -213,12 +252,13 @@ fn reaches(device: Option<&Path>, model: &Path, origin: Vec3) -> anyhow::Result<
     let name = device.unwrap_or(Path::new("woodenhaptics-2016"));
     let device = devices::own_device(&devices::own(name)?, &name.to_string_lossy());
     let file = ModelFile::read(model)?;
-    let places = Felt::read(&file.model()?, &file, model, None, None)?.places();
+    let loaded = file.model()?;
+    let places = Felt::read(&loaded, &file, model, None, None)?.places();
     let at = |u, v| {
         let (point, normal) = places(u, v);
         ((point + origin.as_dvec3()).to_array(), normal.to_array())
     };
-    options::path_over(device, at, 5.0, 2).map(drop)
+    options::path_over(device, (at, origin.as_dvec3() - loaded.centre), 5.0, 2).map(drop)
 }
 
 /// The constants of a device for a board's build, and the variable that names their file.
@@ -228,8 +268,9 @@ fn constants(board: AnyBoard, device: &Path, rate: Option<u32>) -> anyhow::Resul
         AnyBoard::Emulated(_) => {
             ensure!(
                 own.file.homing != HomingEntry::Index,
-                "{}: homing = \"index\": emulated boards have no index marks: homing = \"pose\", or --board stm32g4",
-                device.display()
+                "{}: homing = \"index\": emulated boards have no index marks: {}",
+                device.display(),
+                homing_instead("homing = \"pose\"", &own.file)
             );
             ("PALPATE_SETTINGS", settings_source(&own, RATE))
         }
@@ -253,20 +294,97 @@ fn inside(own: &OwnDevice, rate: Option<u32>) -> String {
     )
 }
 
+/// Whether a board can home its sensors that way.
+const fn homes(board: BenchBoard, homing: HomingEntry) -> bool {
+    match homing {
+        HomingEntry::Pose => true,
+        HomingEntry::Index => board.sensor_counts().is_none(),
+        HomingEntry::None => board.sensor_counts().is_some(),
+    }
+}
+
+/// The boards for the sensors and motor stages of all joints together; those that home them as the file says, if there are.
+fn boards_of(file: &DeviceFile) -> Vec<BenchBoard> {
+    let has_all = |board: &BenchBoard| {
+        file.joint.iter().all(|joint| {
+            board.sensor_counts().is_none_or(|counts| joint.encoder.counts == counts)
+                && joint.motor.bridge.is_some() == board.has_bridges()
+        })
+    };
+    let mut boards: Vec<_> = BenchBoard::ALL.into_iter().filter(has_all).collect();
+    if boards.iter().any(|board| homes(*board, file.homing)) {
+        boards.retain(|board| homes(*board, file.homing));
+    }
+    boards
+}
+
+/// The way out on a board without a device's sensors or motor stages. It never leaves an entry out: an image for amplifiers
+/// gives a bridge voltage where it means no current.
+fn instead(file: &DeviceFile) -> String {
+    let way = |board: BenchBoard| {
+        let sensors = board.sensor_counts().map_or("quadrature encoders", |_| "angle sensors");
+        let stages = if board.has_bridges() { "bridges" } else { "amplifiers that control the current" };
+        format!("--board {} reads {sensors} and drives {stages}", board.name())
+    };
+    let ways: Vec<_> = boards_of(file).into_iter().map(way).collect();
+    if !ways.is_empty() {
+        return ways.join(", ");
+    }
+    let stages = if file.joint.iter().all(|joint| joint.motor.bridge.is_some()) {
+        "quadrature encoders and bridges"
+    } else {
+        "bridges and amplifiers"
+    };
+    format!(
+        "no shipped board has {stages} together: leave the file as the device is, and write a board of your own \
+         (docs/howto/board.md)"
+    )
+}
+
+/// The ways out on a board without a device's way of homing: others, and the board that has this one.
+fn homing_instead(ways: &str, file: &DeviceFile) -> String {
+    let board = boards_of(file).into_iter().find(|board| homes(*board, file.homing));
+    board.map_or_else(|| ways.to_owned(), |board| format!("{ways}, or --board {}", board.name()))
+}
+
 /// Whether a board has the sensors and the motor stages that a device file says, in a loop of `rate`, Hz.
 fn suits(board: BenchBoard, file: &DeviceFile, rate: u32) -> anyhow::Result<()> {
     let (knows_angles, name) = (board.sensor_counts().is_some(), board.name());
+    for JointEntry { name: joint, encoder, motor, .. } in &file.joint {
+        if let Some(counts) = board.sensor_counts() {
+            ensure!(
+                encoder.counts == counts,
+                "joint {joint}: counts = {}, and {name} reads angle sensors of {counts} counts a turn: correct the counts of such a sensor; {}",
+                encoder.counts,
+                instead(file)
+            );
+        }
+        ensure!(
+            board.has_bridges() || motor.bridge.is_none(),
+            "joint {joint}: `bridge`, and {name} drives amplifiers that control the current: its duty for none is 10 %, which \
+             turns a motor on a bridge; {}",
+            instead(file)
+        );
+        ensure!(
+            !board.has_bridges() || motor.bridge.is_some(),
+            "joint {joint}: no `bridge`, and {name} drives bridges that give a voltage. A bridge needs its supply in V and the \
+             resistance of motor and bridge in ohms: bridge = {{ supply = 24.0, resistance = 0.7, back_emf_share = 0.8 }} in \
+             [joint.motor]. Of amplifiers: {}",
+            instead(file)
+        );
+    }
     ensure!(
-        file.homing != HomingEntry::Index || !knows_angles,
-        "homing = \"index\": {name} reads angle sensors, which have no index mark: homing = \"pose\", or --board stm32g4"
+        homes(board, file.homing) || !knows_angles,
+        "homing = \"index\": {name} reads angle sensors, which have no index mark: {}",
+        homing_instead("homing = \"pose\"", file)
     );
     ensure!(
-        file.homing != HomingEntry::None || knows_angles,
-        "homing = \"none\": {name} counts quadrature encoders from 0 after each reset, wherever the joint is: \
-         homing = \"pose\" or \"index\""
+        homes(board, file.homing),
+        "homing = \"none\": {name} counts quadrature encoders from 0 after each reset, wherever the joint is: {}",
+        homing_instead("homing = \"pose\" or \"index\"", file)
     );
     let round = if knows_angles { ticks_per_round(3, rate as f32) } else { 1 };
-    for JointEntry { name, encoder, motor, range: [least, most], .. } in &file.joint {
+    for JointEntry { name, encoder, range: [least, most], .. } in &file.joint {
         // The angle in a turn of the sensor's shaft, from its count 0 on.
         let (turn, zero) = (TAU / encoder.ratio, encoder.zero);
         ensure!(
@@ -297,26 +415,6 @@ fn suits(board: BenchBoard, file: &DeviceFile, rate: u32) -> anyhow::Result<()> 
             board.name(),
             file.limits.max_joint_rate * f64::from(half - 2) / f64::from(step)
         );
-        if let Some(counts) = board.sensor_counts() {
-            ensure!(
-                encoder.counts == counts,
-                "joint {name}: counts = {}, and {} reads angle sensors of {counts} counts a turn; --board stm32g4 reads quadrature \
-                 encoders",
-                encoder.counts,
-                board.name()
-            );
-        }
-        ensure!(
-            board.has_bridges() || motor.bridge.is_none(),
-            "joint {name}: {} drives amplifiers that control the current: leave `bridge` out",
-            board.name()
-        );
-        ensure!(
-            !board.has_bridges() || motor.bridge.is_some(),
-            "joint {name}: {} drives bridges that give a voltage, which need their supply in V and the resistance of motor and \
-             bridge in ohms: bridge = {{ supply = 24.0, resistance = 0.7, back_emf_share = 0.8 }} in [joint.motor]",
-            board.name()
-        );
     }
     Ok(())
 }
@@ -345,7 +443,9 @@ fn command(toolchain: &Toolchain, arguments: &Arguments, progress: &Progress) ->
     if let Some(config) = arguments.board.cargo_config()? {
         command.arg("--config").arg(config);
     }
-    command.args(rest);
+    // The linter's first argument is no command.
+    let at = usize::from(arguments.cargo[0] != "clippy").min(rest.len());
+    command.args(&rest[..at]).args(arguments.programs()).args(&rest[at..]);
     // After `--` come the linter's arguments, not cargo's: the folder is named by the environment.
     command.env("CARGO_TARGET_DIR", toolchain.target_folder()?);
     Ok(command)
@@ -355,6 +455,37 @@ fn command(toolchain: &Toolchain, arguments: &Arguments, progress: &Progress) ->
 mod tests {
     use super::*;
     use palpate_sim::devices::{BridgeEntry, named};
+
+    fn with(board: Board, cargo: &str) -> Arguments {
+        let cargo = cargo.split(' ').map(str::to_owned).collect();
+        Arguments { board: AnyBoard::Emulated(board), body: None, device: None, at: None, rate: None, cargo }
+    }
+
+    #[test]
+    fn a_core_builds_the_programs_that_it_runs() {
+        let folder = Board::folder().expect("the repository");
+        let manifest: toml::Table =
+            fs::read_to_string(folder.join("Cargo.toml")).expect("a manifest").parse().expect("one of cargo");
+        let programs = manifest["bin"].as_array().expect("its programs");
+        for program in programs {
+            let name = program["name"].as_str().expect("a name");
+            let source = fs::read_to_string(folder.join(format!("programs/{name}.rs"))).expect("its source");
+            let needs_cortex = source.contains("cortex_m");
+            assert_eq!(Board::ON_CORTEX_F.contains(&name), needs_cortex, "{name}");
+            let is_plain = !needs_cortex && program.get("required-features").is_none();
+            assert_eq!(Board::ON_ANY_CORE.contains(&name), is_plain, "{name}");
+        }
+        for board in Board::ALL {
+            let has_all = Board::CORTEX_F.contains(&board);
+            let named = with(board, "build --release").programs().count();
+            assert_eq!(named, if has_all { 0 } else { 10 });
+            assert_eq!(with(board, "build --release --bin uart").programs().count(), 0);
+            for refused in ["build --release --bin stack", "build --bin=bench", "build --bins", "accept"] {
+                assert_eq!(with(board, refused).check_programs().is_ok(), has_all, "{refused}");
+            }
+            assert!(with(board, "build --bin budget").check_programs().is_ok());
+        }
+    }
 
     #[test]
     fn a_rate_is_refused_where_the_boards_build_would_refuse_it() {
@@ -387,13 +518,27 @@ mod tests {
 
     #[test]
     fn a_body_out_of_the_arms_reach_is_refused_as_sim_refuses_it() {
-        let reaches = |x, z| reaches(None, Path::new("capped_box"), Vec3::new(x, 0.0, z)).map_err(|e| e.to_string());
+        let model = Path::new("capped_box");
+        let reaches_at = |at: Vec3| reaches(None, model, at).map_err(|error| error.to_string());
+        let reaches = |x, z| reaches_at(Vec3::new(x, 0.0, z));
         assert_eq!(reaches(0.0, 0.0), Ok(()));
-        assert!(reaches(0.4, 0.0).is_err_and(|error| error.contains("--at")));
+        let centre = ModelFile::read(model).and_then(|file| Ok(file.model()?.centre)).expect("it ships");
+        let nearest = |error: &str| -> Vec3 {
+            let (_, place) = error.split_once("the nearest place towards the centre is --at ").expect("a place");
+            let (place, _) = place.split_once(';').expect("its end");
+            (options::millimetres(place).expect("three numbers") + centre).as_vec3()
+        };
+        let error = reaches(0.4, 0.0).unwrap_err();
+        assert!(error.contains("of the whole surface 0 %"), "{error}");
+        let at = nearest(&error);
+        assert_eq!(reaches_at(at), Ok(()));
+        // A sixteenth of the way back, it is out of reach again.
+        assert!(reaches_at(at + Vec3::X * 0.025).is_err());
         // The table is 80 mm under the centre, and the box 25 mm high above its origin.
         assert_eq!(reaches(0.0, -0.09), Ok(()));
         let error = reaches(0.0, -0.2).unwrap_err();
-        assert!(error.contains("below the table, 80 mm under the centre") && error.contains("--at"), "{error}");
+        assert!(error.contains("below the table, 80 mm under the centre"), "{error}");
+        assert_eq!(reaches_at(nearest(&error)), Ok(()));
     }
 
     #[test]
@@ -406,7 +551,7 @@ mod tests {
             }
             file
         };
-        let bridge = Some(BridgeEntry { supply: 24.0, resistance: 0.7, back_emf_share: 0.8 });
+        let bridge = Some(BridgeEntry { supply: 24.0, resistance: 0.7, inductance: None, back_emf_share: 0.8 });
         let takes =
             |board, counts, bridge| suits(board, &with(counts, bridge), 4_000).map_err(|error| error.to_string());
         for (board, counts, bridge) in [
@@ -417,7 +562,7 @@ mod tests {
             assert_eq!(takes(board, counts, bridge), Ok(()));
         }
         for (board, counts, bridge, culprit) in [
-            (BenchBoard::Stm32g4, 2_000.0, bridge, "leave `bridge` out"),
+            (BenchBoard::Stm32g4, 2_000.0, bridge, "no shipped board has quadrature encoders and bridges together"),
             (BenchBoard::Teensy41, 2_000.0, None, "counts = 2000"),
             (BenchBoard::Pico2, 8_192.0, bridge, "counts = 8192"),
             (BenchBoard::Pico2, 16_384.0, None, "bridge = {"),
@@ -427,9 +572,49 @@ mod tests {
         }
     }
 
+    /// Of each device of two kinds of sensors, motor stages of one kind or mixed, and three ways of homing.
+    #[test]
+    fn a_board_that_a_refusal_names_takes_the_device_and_no_refusal_asks_to_leave_a_bridge_out() {
+        let bridge = Some(BridgeEntry { supply: 24.0, resistance: 0.7, inductance: None, back_emf_share: 0.8 });
+        let mut without_a_board = 0;
+        for (counts, with_bridges) in
+            [2_000.0, 16_384.0].into_iter().flat_map(|counts| (0..8).map(move |joints| (counts, joints)))
+        {
+            for homing in [HomingEntry::Pose, HomingEntry::Index, HomingEntry::None] {
+                let mut file = named("woodenhaptics-2016").and_then(|device| device.file()).expect("a file");
+                file.homing = homing;
+                for (index, joint) in file.joint.iter_mut().enumerate() {
+                    // On the joint, whose one turn it knows.
+                    (joint.encoder.counts, joint.encoder.ratio, joint.encoder.zero) =
+                        (counts, 1.0, joint.range[0] - 1.0);
+                    joint.motor.bridge = bridge.filter(|_| with_bridges >> index & 1 == 1);
+                }
+                let takes = |board, homing| {
+                    let error = suits(board, &DeviceFile { homing, ..file.clone() }, 4_000).err();
+                    error.map(|error| error.to_string())
+                };
+                let has_board = BenchBoard::ALL.into_iter().any(|board| takes(board, HomingEntry::Pose).is_none());
+                without_a_board += usize::from(!has_board);
+                for error in BenchBoard::ALL.into_iter().filter_map(|board| takes(board, homing)) {
+                    let named =
+                        BenchBoard::ALL.into_iter().find(|board| error.contains(&format!("--board {}", board.name())));
+                    // The way of homing may still be one that no board has with these parts.
+                    let is_homed = BenchBoard::ALL.into_iter().any(|board| takes(board, homing).is_none());
+                    let suited = if is_homed { homing } else { HomingEntry::Pose };
+                    assert!(named.is_none_or(|board| takes(board, suited).is_none()), "{error}");
+                    assert_eq!(error.contains("no shipped board has"), !has_board, "{error}");
+                    assert!(named.is_some() || !has_board || error.contains("homing = \"pose\""), "{error}");
+                    assert!(!error.contains("leave `bridge`") && !error.contains("bridge` out"), "{error}");
+                }
+            }
+        }
+        // Encoders on bridges, and either sensor on bridges beside amplifiers, homed in three ways.
+        assert_eq!(without_a_board, 3 * (1 + 6 + 6));
+    }
+
     #[test]
     fn a_board_takes_the_homing_and_the_rates_that_its_inputs_bear() {
-        let bridge = Some(BridgeEntry { supply: 24.0, resistance: 0.7, back_emf_share: 0.8 });
+        let bridge = Some(BridgeEntry { supply: 24.0, resistance: 0.7, inductance: None, back_emf_share: 0.8 });
         let takes = |board: BenchBoard, homing, change: fn(&mut DeviceFile)| {
             let mut file = named("woodenhaptics-2016").and_then(|device| device.file()).expect("a file");
             file.homing = homing;

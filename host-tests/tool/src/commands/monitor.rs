@@ -136,8 +136,11 @@ fn watch_emulator(arguments: &Arguments, board: Board, view: &mut View) -> anyho
 /// The display and the recording.
 struct View {
     monitor: Monitor,
+    csv: Option<PathBuf>,
+    raw: Option<PathBuf>,
+    /// Opened with the first record and the first bytes: a line that does not open keeps an older recording.
     table: Option<Table>,
-    raw: Option<File>,
+    bytes: Option<File>,
     refreshes: bool,
     /// When the line was opened, then when the first record came: an image is built before, and a board starts.
     start: Instant,
@@ -147,13 +150,13 @@ struct View {
 
 impl View {
     fn new(arguments: &Arguments) -> anyhow::Result<Self> {
-        let table = |path: &PathBuf| Table::create(path).with_context(|| format!("cannot write {}", path.display()));
-        let raw = |path: &PathBuf| File::create(path).with_context(|| format!("cannot write {}", path.display()));
         let ends_after = arguments.ends_after.map(Duration::try_from_secs_f64).transpose();
         Ok(Self {
             monitor: Monitor::default(),
-            table: arguments.csv.as_ref().map(table).transpose()?,
-            raw: arguments.raw.as_ref().map(raw).transpose()?,
+            csv: arguments.csv.clone(),
+            raw: arguments.raw.clone(),
+            table: None,
+            bytes: None,
             refreshes: stdout().is_terminal(),
             start: Instant::now(),
             ends_after: ends_after.context("--for must be a positive time")?,
@@ -178,8 +181,11 @@ impl View {
                     }
                 },
             };
-            if let Some(raw) = &mut self.raw {
-                raw.write_all(bytes).context("the bytes of the line cannot be written")?;
+            if let Some(path) = self.raw.take() {
+                self.bytes = Some(File::create(&path).with_context(|| format!("cannot write {}", path.display()))?);
+            }
+            if let Some(file) = &mut self.bytes {
+                file.write_all(bytes).context("the bytes of the line cannot be written")?;
             }
             for byte in bytes {
                 if let Some(figures) = self.monitor.feed(*byte) {
@@ -196,6 +202,9 @@ impl View {
     fn take(&mut self, figures: &Figures) -> anyhow::Result<()> {
         if self.monitor.records == 1 {
             self.start = Instant::now();
+        }
+        if let Some(path) = self.csv.take() {
+            self.table = Some(Table::create(&path).with_context(|| format!("cannot write {}", path.display()))?);
         }
         if let Some(table) = &mut self.table {
             table.write(figures)?;
@@ -331,6 +340,25 @@ mod tests {
         // The first frame is that in which a listener gets into step.
         let since = board.until.expect("a start").elapsed();
         assert!(since >= Duration::from_millis(500) && view.monitor.records > 0, "{since:?}");
+    }
+
+    #[test]
+    fn an_older_recording_is_replaced_only_once_there_are_records() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let [csv, raw] = ["run.csv", "run.raw"].map(|name| folder.path().join(name));
+        for path in [&csv, &raw] {
+            std::fs::write(path, "older").expect("written");
+        }
+        let read = || [&csv, &raw].map(|path| std::fs::read(path).expect("a file"));
+        let line = format!("monitor --port none --for 0.1 --csv {} --raw {}", csv.display(), raw.display());
+        let matches = Arguments::augment_args(Command::new("monitor")).get_matches_from(line.split(' '));
+        let arguments = Arguments::from_arg_matches(&matches).expect("arguments");
+        assert!(super::run(&arguments).is_err() && read().iter().all(|file| file == b"older"));
+        View::new(&arguments).expect("a view").watch(&mut Starting { until: None, number: 0 }).expect("it ends");
+        assert!(read().iter().all(|file| file == b"older"));
+        let mut board = Starting { until: Some(Instant::now()), number: 0 };
+        View::new(&arguments).expect("a view").watch(&mut board).expect("it ends");
+        assert!(read().iter().all(|file| file != b"older" && !file.is_empty()));
     }
 
     #[test]

@@ -12,9 +12,10 @@ use crate::simulation::{HostLoop, Span, Trace};
 use anyhow::{Context, anyhow, bail, ensure};
 use clap::Args;
 use glam::DVec3;
+use palpate::body::TickLimit;
 use palpate::device::{Device, Kinematics, Mount, Protection};
 use palpate::scene::Limits;
-use palpate::servo::{Config, Safety, Servo, Settings, Surface};
+use palpate::servo::{Config, Safety, Servo, Settings, SettingsError, Surface};
 use palpate::wire::WristSensors;
 use palpate_bake::source::Origin;
 use palpate_bake::{BakedBody, Model, NurbsPatch};
@@ -158,7 +159,6 @@ impl SceneOptions {
         if device.source.is_none() {
             bail!("{} has too few joints to feel a surface in space; see zwidth", device.name);
         }
-        let limits = device.preset.limits();
         let recommended = device.recommended().settings;
         let settings = Settings {
             rate_hz: self.rate.unwrap_or(RATES[0]),
@@ -169,9 +169,7 @@ impl SceneOptions {
             soft_start_s: self.soft_start,
             body_origin_m: body_origin,
         };
-        settings
-            .check(limits.stiffness, limits.damping)
-            .with_context(|| format!("{}: up to {} N/m and {} N·s/m", device.name, limits.stiffness, limits.damping))?;
+        check(&settings, device)?;
         let [ticks, enable_at] = self.ticks(settings.rate_hz)?;
         let protection = self.protected.then(|| device.protection());
         let tool = self.tool.map(|core| ShapedTool::new(core, self.radius, self.turn, self.friction)).transpose()?;
@@ -182,6 +180,9 @@ impl SceneOptions {
             for remark in scene.remarks(device, body_origin.as_dvec3()) {
                 eprintln!("{}: {remark}", file.label);
             }
+        }
+        if let Some(warning) = protection.and_then(|_| weak_pulses(device, settings.rate_hz, settings.max_force_n)) {
+            eprintln!("warning: polarity check: {warning}");
         }
         let rendering = self.rendering;
         Ok(Scene { file, centre, felt, device, settings, rendering, protection, tool, ticks, enable_at })
@@ -219,16 +220,54 @@ impl SceneOptions {
             let (point, normal) = places(u, v);
             ((point + normal * stand_off + origin).to_array(), normal.to_array())
         };
-        let path = path_over(scene.device, point_and_normal, self.seconds, self.seed)?;
+        let path = path_over(scene.device, (point_and_normal, origin - scene.centre), self.seconds, self.seed)?;
         Plant::new(&scene.device.plant, HandSettings::default(), Box::new(path), f64::from(scene.settings.rate_hz))
             .context("the simulated device cannot start here (move the model with --at)")
     }
+}
+
+/// Refuses settings beyond a device's limits.
+pub(super) fn check(settings: &Settings, device: &ShippedDevice) -> anyhow::Result<()> {
+    let (limits, name) = (device.preset.limits(), device.name);
+    settings.check(limits.stiffness, limits.damping).map_err(|error| match error {
+        SettingsError::Stiffness => {
+            anyhow!("--stiffness {}: {name} takes 0 to {} N/m", settings.stiffness_n_per_m, limits.stiffness)
+        }
+        SettingsError::Damping => {
+            anyhow!("--damping {}: {name} takes 0 to {} N·s/m", settings.damping_n_s_per_m, limits.damping)
+        }
+        error => anyhow!("{name}: {error}"),
+    })
 }
 
 /// Whether a place, metres, is in the workspace of a device.
 pub(super) fn has_room(device: &ShippedDevice) -> impl Fn([f64; 3]) -> bool + use<> {
     let (mechanism, preset) = (device.plant.mechanism(0.0), device.preset);
     move |place| mechanism.angles(place).is_some_and(|angles| preset.room(angles) > 0.0)
+}
+
+/// The joints of a protected device whose polarity pulses are too weak at a maximum force, N, and the force that they
+/// need, as a warning.
+pub(super) fn weak_pulses(device: &ShippedDevice, rate: f32, max_force: f32) -> Option<String> {
+    // The loop's force is at most the device's.
+    let max_force = max_force.min(device.preset.limits().force);
+    let angles = device.plant.mechanism(0.0).angles([0.0; 3])?;
+    let needed = device.preset.min_force_n(&device.protection().polarity?, rate, angles)?;
+    let each = device.joint_names().into_iter().zip(needed).filter(|(_, needed)| *needed > max_force);
+    let each = each.map(|(joint, needed)| {
+        if needed.is_finite() {
+            format!("joint {joint} needs max_force {:.1} N", (needed * 10.0).ceil() / 10.0)
+        } else {
+            format!("joint {joint} needs an encoder with more counts")
+        }
+    });
+    let each = each.collect::<Vec<_>>().join(", ");
+    (!each.is_empty()).then(|| {
+        format!(
+            "its pulses, a quarter of max_force, are too weak at {max_force} N: {each} (in the middle of the workspace); \
+             the force stays withheld"
+        )
+    })
 }
 
 /// The height of the table, m above the centre of the workspace, under an arm whose file states that of its base.
@@ -242,35 +281,70 @@ fn table_height(device: &ShippedDevice) -> Option<f64> {
 /// Where the surface is larger than the workspace, the hand keeps to the middle of the surface.
 ///
 /// # Errors
-/// A surface that the hand does not reach, or that lies below the table.
+/// A surface that the hand does not reach, or that lies below the table: with the nearest place, beside `place`, m,
+/// where the hand reaches it.
 pub(super) fn path_over(
     device: &ShippedDevice,
-    at: impl Fn(f64, f64) -> ([f64; 3], [f64; 3]),
+    (at, place): (impl Fn(f64, f64) -> ([f64; 3], [f64; 3]), DVec3),
     seconds: f64,
     seed: u64,
 ) -> anyhow::Result<TouchingPath> {
-    if let Some(table) = table_height(device) {
-        let share = |number: u8| f64::from(number % 9) / 8.0;
-        let top = (0..81).map(|number| at(share(number), share(number / 9)).0[2]).fold(f64::NEG_INFINITY, f64::max);
-        ensure!(
-            top >= table,
-            "{}: the whole surface lies below the table, {:.0} mm under the centre of the workspace: raise the model with \
-             --at, or the centre by `workspace_centre` of the device file",
-            device.name,
-            -1e3 * table
-        );
-    }
-    TouchingPath::within(at, seconds, seed, has_room(device)).map_err(|error| {
-        if error == PathError::NoRoom {
-            anyhow!(
-                "{}: {error}: move the model with --at, or the workspace by its device file: `workspace_centre` \
-                 (of a delta `workspace_depth`), each joint's `range`, or a lower `min_margin`",
-                device.name
-            )
-        } else {
-            anyhow::Error::new(error).context("the hand finds no path over the surface; move the model with --at")
+    let share = |number: u8| f64::from(number % 9) / 8.0;
+    let points: Vec<_> = (0..81).map(|number| DVec3::from_array(at(share(number), share(number / 9)).0)).collect();
+    let (name, has_room) = (device.name, has_room(device));
+    let is_above =
+        |by: DVec3| table_height(device).is_none_or(|table| points.iter().any(|point| point.z + by.z >= table));
+    let path = |by: DVec3, seconds: f64| {
+        let moved = |u, v| {
+            let (point, normal) = at(u, v);
+            ((DVec3::from_array(point) + by).to_array(), normal)
+        };
+        TouchingPath::within(moved, seconds, seed, &has_room)
+    };
+    let refused = if is_above(DVec3::ZERO) {
+        match path(DVec3::ZERO, seconds) {
+            Ok(path) => return Ok(path),
+            Err(PathError::NoRoom) => {
+                let inside = points.iter().filter(|point| has_room(point.to_array())).count();
+                format!("{}, of the whole surface {} %", PathError::NoRoom, 100 * inside / points.len())
+            }
+            Err(error) => {
+                return Err(anyhow::Error::new(error)
+                    .context("the hand finds no path over the surface; move the model with --at"));
+            }
         }
-    })
+    } else {
+        let table = table_height(device).unwrap_or_default();
+        format!("the whole surface lies below the table, {:.0} mm under the centre of the workspace", -1e3 * table)
+    };
+    let corner = |of: fn(DVec3, DVec3) -> DVec3| points.iter().copied().reduce(of).unwrap_or_default();
+    let middle = 0.5 * (corner(DVec3::min) + corner(DVec3::max));
+    let nearest = nearest(place, middle, |by, most| is_above(by) && path(by, seconds.min(most)).is_ok());
+    let remedy = nearest.map_or_else(
+        || "the middle of the workspace is too small for it too; take a smaller model, or".to_owned(),
+        |at| {
+            let [x, y, z] = (at * 1e3).to_array();
+            format!("the nearest place towards the centre is --at {x:.0},{y:.0},{z:.0}; or")
+        },
+    );
+    bail!(
+        "{name}: {refused}: {remedy} move the workspace by the device file: `workspace_centre` (of a delta \
+         `workspace_depth`), each joint's `range`, or a lower `min_margin`"
+    )
+}
+
+/// The first place on the way from `place` that takes the surface's middle to that of the workspace, in whole mm, m,
+/// whose displacement is accepted for paths of any length, s.
+fn nearest(place: DVec3, middle: DVec3, accepts: impl Fn(DVec3, f64) -> bool) -> Option<DVec3> {
+    let at = |step: u8| ((place - f64::from(step) / 32.0 * middle) * 1e3).round() * 1e-3 + DVec3::ZERO;
+    // By a short path first: a long one takes long to find.
+    let (mut refused, mut accepted) = (0, 32);
+    while accepted - refused > 1 {
+        let between = u8::midpoint(refused, accepted);
+        let side = if accepts(at(between) - place, 2.0) { &mut accepted } else { &mut refused };
+        *side = between;
+    }
+    (accepted..=32).map(at).find(|at| accepts(*at - place, f64::INFINITY))
 }
 
 impl Scene {
@@ -359,13 +433,9 @@ impl Scene {
     /// # Errors
     /// Why the page could not feel it.
     pub fn recording(&self, trace: &Trace, on: &str) -> anyhow::Result<Recording> {
-        if self.tool.is_some() {
-            return Err(Cut::Tool.into());
-        }
+        self.check_recordable()?;
         let (bodies, scene) = match &self.felt {
-            Felt::Scene(scene) if scene.is_soft() => return Err(Cut::Soft.into()),
             Felt::Scene(scene) => scene.recorded(self.limits())?,
-            Felt::Body { soft: Some(_), .. } => return Err(Cut::Soft.into()),
             Felt::Body { baked, .. } => (vec![self.recorded_body(&self.file.model()?, baked)?], None),
             Felt::Patch { surface, .. } => (vec![self.recorded_patch(surface)?], None),
         };
@@ -383,18 +453,37 @@ impl Scene {
         Ok(Recording::new(trace, on, of))
     }
 
+    /// Refuses a recording of a scene before it is run.
+    ///
+    /// # Errors
+    /// Why the page could not feel it.
+    pub fn check_recordable(&self) -> anyhow::Result<()> {
+        match &self.felt {
+            _ if self.tool.is_some() => Err(Cut::Tool.into()),
+            Felt::Scene(scene) if scene.is_soft() => Err(Cut::Soft.into()),
+            Felt::Body { soft: Some(_), .. } => Err(Cut::Soft.into()),
+            Felt::Patch { surface, .. } => self.patch_alone(surface).map(drop),
+            _ => Ok(()),
+        }
+    }
+
     fn recorded_body(&self, model: &Model, baked: &BakedBody) -> anyhow::Result<RecordedBody> {
         let name = model.name.as_str();
         Ok(RecordedBody::new(name, &palpate_bake::file::write(self.file.digest(), model, baked)?))
     }
 
     /// The patch as a body of its own.
-    fn recorded_patch(&self, surface: &NurbsPatch) -> anyhow::Result<RecordedBody> {
+    fn patch_alone(&self, surface: &NurbsPatch) -> anyhow::Result<(Model, BakedBody)> {
         let whole = self.file.model()?;
         let name = surface.name.clone().filter(|_| whole.patches.len() > 1).unwrap_or_else(|| whole.name.clone());
         let model = Model { patches: vec![surface.clone()], name, ..whole };
         let body = BakedBody::new(&model, &self.file.label)?;
         ensure!(body.faces.len() == 1, Cut::Pieces(body.faces.len()));
+        Ok((model, body))
+    }
+
+    fn recorded_patch(&self, surface: &NurbsPatch) -> anyhow::Result<RecordedBody> {
+        let (model, body) = self.patch_alone(surface)?;
         let options = body.locator_options();
         let (body, _) = body.located(&options, &|_, _| {})?;
         self.recorded_body(&model, &body)
@@ -473,8 +562,11 @@ impl Scene {
         });
         let each = each.collect::<Vec<_>>().join(", ");
         let until = last.min(trace.samples.len() as f64 / trace.rate).max(asked) - asked;
+        let weak = weak_pulses(self.device, self.settings.rate_hz, self.settings.max_force_n);
         let remedy = if last.is_finite() {
             ""
+        } else if let Some(weak) = &weak {
+            &format!(", to the end: {weak}")
         } else {
             ", to the end: a joint is confirmed while the probe presses on the surface, and gravity compensation is \
              withheld too, so the links hang from the hand; a longer run (--seconds), another place (--at), or without \
@@ -490,7 +582,13 @@ impl Scene {
 
     /// Where the scene's tables come from.
     pub fn origin(&self) -> Origin<'_> {
-        Origin { model_file: &self.file.name, out_file: "body.rs", model: self.file.bytes(), centre: self.centre }
+        Origin {
+            model_file: &self.file.name,
+            out_file: "body.rs",
+            model: self.file.bytes(),
+            centre: self.centre,
+            limit: TickLimit::BENCH,
+        }
     }
 
     /// The loop's settings and device as the source file that an image is built with. Every number reads back as the

@@ -41,8 +41,7 @@ pub struct Arguments {
 /// Prints the address and runs until Ctrl-C.
 #[derive(Args, Debug)]
 pub struct ViewArguments {
-    /// Model: a file, or the name of a shipped one
-    #[arg(required_unless_present = "recording")]
+    /// Model: a file, or the name of a shipped one; default: all shipped ones
     model: Option<PathBuf>,
     /// Modes of a model that gives way, from `bake --soft`
     #[arg(long, value_name = "MODES.toml", requires = "model")]

@@ -9,7 +9,7 @@ use anyhow::{Context as _, ensure};
 use clap::Args;
 use glam::{DMat3, DQuat, DVec3};
 use palpate::body::Body;
-use palpate::pair::{Closest, Core, DEFAULT_CELLS, Tool, ToolStatus, ToolWitness};
+use palpate::pair::{Closest, Core, DEFAULT_CELLS, Tool, ToolWitness};
 use palpate::track::Placement;
 use palpate_bake::{BakedBody, Model};
 use std::path::{Path, PathBuf};
@@ -105,7 +105,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
             (mode, state) => {
                 let (start, found) = body.locate_tool(&tool, &placement);
                 *state = (mode == Mode::Track).then_some(start);
-                (found, label(found.status, "converged"))
+                (found, found.status.name("converged"))
             }
         };
         let (on_body, on_core) = (found.body.as_dvec3() + baked.centre, found.core.as_dvec3() + centre);
@@ -129,38 +129,12 @@ fn track(
     placement: &Placement,
     arguments: &Arguments,
 ) -> (Closest, &'static str) {
-    let mut evaluations = 0;
-    let mut found = None;
-    for _ in 0..arguments.ticks {
-        let step = body.step_tool(tool, state, placement, arguments.cells);
-        evaluations += step.evaluations;
-        let needs_location = match step.status {
-            ToolStatus::Behind | ToolStatus::Jumped => true,
-            // Of a common normal the tracker keeps hold.
-            ToolStatus::Inside => step.distance + tool.radius() >= 0.0,
-            _ => false,
-        };
-        let step = if needs_location {
-            let (start, located) = body.locate_tool(tool, placement);
-            *state = start;
-            evaluations += located.evaluations;
-            located
-        } else {
-            step
-        };
-        found = Some(Closest { evaluations, ..step });
+    let mut found = body.follow_tool(tool, state, placement, arguments.cells);
+    for _ in 1..arguments.ticks {
+        let next = body.follow_tool(tool, state, placement, arguments.cells);
+        found = Closest { evaluations: found.evaluations + next.evaluations, ..next };
     }
-    let found = found.unwrap_or_else(|| body.locate_tool(tool, placement).1);
-    (found, label(found.status, "tracking"))
-}
-
-const fn label(status: ToolStatus, sound: &'static str) -> &'static str {
-    match status {
-        ToolStatus::Following | ToolStatus::AtRest => sound,
-        ToolStatus::Inside => "inside",
-        ToolStatus::Behind | ToolStatus::Jumped => "behind",
-        ToolStatus::StepLimit => "step-limit",
-    }
+    (found, found.status.name("tracking"))
 }
 
 /// The tables with their locator.

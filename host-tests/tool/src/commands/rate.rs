@@ -28,6 +28,27 @@ pub fn in_time<R>(
     Ok(done)
 }
 
+/// Instructions in a second of the chip that the emulated boards time a tick by.
+const INSTRUCTIONS_PER_SECOND: f64 = 62.5e6;
+
+/// If a run ended with a tick that took too long: what takes too long, by how much, and the remedy.
+pub fn too_expensive(scene: &Scene, summary: &Summary) -> Option<String> {
+    let tool = scene.tool.map_or_else(String::new, |tool| format!("the tool ({}) on ", tool.shape()));
+    verdict(&format!("{tool}{}", scene.model_name()), summary)
+}
+
+fn verdict(what: &str, summary: &Summary) -> Option<String> {
+    let (Some((Fault::Overrun, tick)), Some(counted)) = (summary.fault, summary.instructions) else { return None };
+    let (rate, worst) = (summary.rate, counted.largest);
+    Some(format!(
+        "{what} is too expensive for the emulated board at {rate} Hz: the worst tick took {worst} instructions, and a \
+         period has {:.0}; the motors are off from tick {tick} on. Take a simpler tool or body, or a lower rate: --rate \
+         {:.0} has time for that tick",
+        (INSTRUCTIONS_PER_SECOND / rate).floor(),
+        (INSTRUCTIONS_PER_SECOND / f64::from(worst)).floor()
+    ))
+}
+
 /// The tick that was too long at a rate, and the rate to go down to: none if a rate was asked for, nor from the lowest.
 fn lower(rate: f32, asked: Option<f32>, fault: Option<(Fault, u32)>) -> Option<(u32, f32)> {
     let Some((Fault::Overrun, tick)) = fault else { return None };
@@ -38,6 +59,7 @@ fn lower(rate: f32, asked: Option<f32>, fault: Option<(Fault, u32)>) -> Option<(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::simulation::Sample;
 
     #[test]
     fn a_tick_that_is_too_long_takes_a_run_down_rate_by_rate() {
@@ -47,6 +69,30 @@ mod tests {
             rates.push(rate);
         }
         assert_eq!(rates, RATES);
+    }
+
+    #[test]
+    fn a_tick_that_is_too_long_at_every_rate_is_a_verdict_with_a_remedy() {
+        let report = |fault, instructions| palpate::wire::Report { fault, instructions, ..Default::default() };
+        let summary = |fault: Option<Fault>| {
+            let sample = |instructions| Sample {
+                time: 0.0,
+                sensors: Default::default(),
+                report: report(fault.map_or(0, Fault::code), instructions),
+                probe: [0.0; 3],
+            };
+            let samples = [700, 64_927].map(sample).to_vec();
+            Summary::new(&Trace { rate: 1_000.0, samples, confirmed: None, contacts_lost: None })
+        };
+        let said = verdict("the tool on s09", &summary(Some(Fault::Overrun))).unwrap_or_default();
+        // 62,500,000 / 64,927 is 962.6.
+        for part in ["the tool on s09 is too expensive", "64927 instructions", "has 62500;", "--rate 962 "] {
+            assert!(said.contains(part), "{part}: {said}");
+        }
+        assert_eq!(verdict("s09", &summary(None)), None);
+        assert_eq!(verdict("s09", &summary(Some(Fault::Overspeed))), None);
+        let timer = include_str!("../../../../boards/emulated/src/timer.rs");
+        assert!(timer.contains("CHIP_INSTRUCTIONS_PER_SECOND: u32 = 62_500_000;"), "the boards' deadline");
     }
 
     #[test]

@@ -31,6 +31,9 @@ pub struct Arguments {
 /// The cause, for the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let scene = arguments.scene.scene()?;
+    if arguments.recording.is_some() {
+        scene.check_recordable()?;
+    }
     let trace = run_on_host(&arguments.scene, &scene)?;
     scene.walls().iter().for_each(|(name, value)| println!("  {name:<20} {value}"));
     print!("{}", Summary::new(&trace));

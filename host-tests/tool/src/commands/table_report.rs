@@ -46,8 +46,9 @@ pub(super) fn of_patches(surveys: &[Survey]) -> Result<String, Error> {
     Ok(report)
 }
 
-/// The proved worst case of a tick with the effort that fits the limit, and of a pass of the audit.
-pub(super) fn of_tick(body: &Body<'_>, limit: TickLimit) -> Result<String, Error> {
+/// The proved worst case of a tick with the effort that fits the limit, and of a pass of the audit, which is longer
+/// before the body has its locator.
+pub(super) fn of_tick(body: &Body<'_>, limit: TickLimit, is_located: bool) -> Result<String, Error> {
     let mut report = String::new();
     let (worst, cycles, effort) = (body.worst_tick(TickWork::EACH), body.worst_cycles(), body.effort());
     let TickLimit { evaluations, cycles: granted } = limit;
@@ -58,8 +59,13 @@ pub(super) fn of_tick(body: &Body<'_>, limit: TickLimit) -> Result<String, Error
     row(&mut report, "worst tick", worst.cost as usize, &meaning)?;
     if !body.is_convex() {
         let alone = body.with_effort(Effort::ONE).audit_ticks();
+        let over = if is_located {
+            "a pass over a cell's candidates (proved)"
+        } else {
+            "a pass over all faces (proved, before a locator is baked; for a device see `palpate bake --table-report`)"
+        };
         let meaning = format!(
-            "ticks at most in a pass, {alone} at effort 1,1; two take a nearer point that six evaluations find"
+            "ticks at most in {over}, {alone} at effort 1,1; two passes take a nearer point that six evaluations find"
         );
         row(&mut report, "audit", body.audit_ticks() as usize, &meaning)?;
     }

@@ -8,8 +8,7 @@ use anyhow::{Context as _, bail};
 use clap::Args;
 use palpate::wire::hold;
 use palpate_link::{Device, Error, Line, Port, SILENCE};
-use palpate_sim::knob::{KnobFlash, SharedKnob, SimulatedKnob};
-use palpate_sim::plant::DialSettings;
+use palpate_sim::knob::{KnobFlash, SharedKnob, SimulatedKnob, dial};
 use palpate_sim::simulated::{self, Simulated};
 use std::io::{IsTerminal as _, Write, stdin, stdout};
 use std::path::{Path, PathBuf};
@@ -30,10 +29,10 @@ pub struct Arguments {
     /// Baud rate
     #[arg(long, default_value_t = 500_000)]
     baud: u32,
-    /// Emulated board with a simulated arm over two capped boxes
+    /// Emulated board with WoodenHaptics, simulated, over two capped boxes
     #[arg(long, value_parser = Board::cortex_f(), group = "where")]
     emulator: Option<Board>,
-    /// The boards' loop compiled for the host, with the same arm
+    /// The boards' loop compiled for the host, with the same device
     #[arg(long, group = "where")]
     host: bool,
     /// Log (CSV): tick, position, velocity, force, gap, feature, phase and fault; of a knob, degrees and torque
@@ -43,7 +42,7 @@ pub struct Arguments {
     /// knob 100, its most
     #[arg(long, requires = "log", value_name = "HZ")]
     log_rate: Option<f64>,
-    /// The emulated or simulated device
+    /// The emulated or simulated device: one of two, never your file (my.toml), which `sim`, `demo` and `firmware` take
     #[arg(long, value_enum, default_value = "arm")]
     device: Kind,
 }
@@ -51,7 +50,7 @@ pub struct Arguments {
 /// A device that can be talked with without having it.
 #[derive(clap::ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
-    /// An arm over two capped boxes
+    /// WoodenHaptics over two capped boxes
     Arm,
     /// A knob, whose dial a hand turns there and back
     Knob,
@@ -62,7 +61,7 @@ enum Kind {
 /// # Errors
 /// The cause, for the terminal.
 pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
-    let knob = (arguments.device == Kind::Knob).then(|| SharedKnob::new(DialSettings::gimbal_knob()));
+    let knob = (arguments.device == Kind::Knob).then(|| SharedKnob::new(dial()));
     let (line, button): (Box<dyn Line>, Option<Button>) = match (&arguments.port, arguments.emulator, arguments.host) {
         (Some(port), ..) => (Box::new(Port::open(port, arguments.baud)?), None),
         (None, Some(board), _) => {
@@ -79,7 +78,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
                 (Box::new(device), Some(at_knob(knob, true)))
             }
             None => {
-                let device = Simulated::new(simulated::Kind::default())?.paced();
+                let device = Simulated::new(simulated::Kind { bytes_per_tick: USB, ..Default::default() })?.paced();
                 let hand = device.hand();
                 let button = move |press| {
                     hand.enables(press == Press::Down);
@@ -147,6 +146,9 @@ fn converse(console: &mut Console<'_, Box<dyn Line>>, output: &mut dyn Write) ->
         output.flush()?;
     }
 }
+
+/// Bytes that USB carries in a tick of 4 kHz: a device in this program has no baud rate.
+const USB: u32 = 240;
 
 /// How long a knob takes to be aligned at most.
 const ALIGNED: Duration = Duration::from_secs(5);

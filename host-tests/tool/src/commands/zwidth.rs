@@ -15,7 +15,7 @@ use clap::{Args, ValueEnum};
 use palpate::device::VelocityMethod;
 use palpate::render::Ease;
 use palpate_sim::zwidth::{DAMPINGS, DELAYS, Limit, Loop, RATES, Slice, in_words, max_stiffness};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// Dampings for which the weakest direction is printed, N·s/m.
@@ -26,6 +26,12 @@ const WEAKEST: [f64; 3] = [0.0, 2.0, 8.0];
 /// The table is along z at the middle of the workspace (two joints: y, one: x); the weakest direction of the workspace
 /// follows. The last line is the value for `max_stiffness` in the device file: half of the limit with the rendering
 /// recommended for the device, in the weakest direction.
+///
+/// Simulated: the stiffest wall on which the probe comes to rest. Passive: up to there the wall gives out no energy,
+/// (b − B)/(T/2 + d + L/R) and at most 2 f/count, with the device's viscous friction b and dry friction f, the wall's
+/// damping B, period T, delay d, and the time constant L/R of a motor's current. The weakest direction is the weakest of 13,
+/// to the sides, edges and corners of a cube, at places 30 mm apart and up to 150 mm from the middle along each axis,
+/// within reach and where the device does not fade its force out.
 #[derive(Args, Debug)]
 pub struct Arguments {
     /// Device: a name, your own file (my.toml), or `all`.
@@ -49,9 +55,9 @@ pub struct Arguments {
     /// The body of --modes: a file, or the name of a shipped one.
     #[arg(long, requires = "modes")]
     model: Option<PathBuf>,
-    /// Plot file (SVG); none with `--device all` or `--modes`.
-    #[arg(long, default_value = "palpate-report/zwidth.svg")]
-    plot: PathBuf,
+    /// Plot file (SVG) of one device, without --modes; default: palpate-report/zwidth.svg
+    #[arg(long, conflicts_with = "modes")]
+    plot: Option<PathBuf>,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -94,17 +100,19 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         return Ok(ExitCode::SUCCESS);
     }
     let Arms::One(device) = arguments.device else {
+        anyhow::ensure!(arguments.plot.is_none(), "--plot is of one device: add --device NAME, or your file");
         summary::print(&arguments.device.each(), &rates, like, None)?;
         return Ok(ExitCode::SUCCESS);
     };
     let slice = Slice::of(device);
     let limits = sweep_with_bar(&slice, &rates, &DELAYS, like, None)?;
     print_table(&slice, device, arguments, &rates, &limits, like);
-    if let Some(folder) = arguments.plot.parent() {
+    let picture = arguments.plot.as_deref().unwrap_or(Path::new("palpate-report/zwidth.svg"));
+    if let Some(folder) = picture.parent() {
         std::fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
     }
-    write_whole(&arguments.plot, plot(&slice, &limits).as_bytes())?;
-    println!("plot: {}", arguments.plot.display());
+    write_whole(picture, plot(&slice, &limits).as_bytes())?;
+    println!("plot: {}", picture.display());
     println!("{}", summary::answer(device, &rates));
     Ok(ExitCode::SUCCESS)
 }

@@ -152,15 +152,9 @@ pub struct Person {
 }
 
 impl Person {
-    /// A person who reads and answers at this terminal.
-    ///
-    /// # Errors
-    /// If standard input is not a terminal.
-    pub fn new(names: Vec<String>) -> anyhow::Result<Self> {
-        if !stdin().is_terminal() {
-            bail!("setting up a device takes a person at a terminal; standard input is none");
-        }
-        Ok(Self { names, gravity: 9.81 })
+    /// A person who reads and answers at this terminal; its [`Keyboard`] refuses a script.
+    pub const fn new(names: Vec<String>) -> Self {
+        Self { names, gravity: 9.81 }
     }
 
     /// Says something, and waits for a line.
@@ -202,6 +196,14 @@ impl Hands for Person {
         let what = format!(
             "Let joint {name} rest against a support, so that it can move only towards {way} angles, and hold the \
              others. Fingers out. Enter, press the enable button, and hold the space bar: its motor pulls by and by."
+        );
+        self.ask(&what).map(drop)
+    }
+
+    fn carry(&mut self, output: u8) -> anyhow::Result<()> {
+        let what = format!(
+            "Have a second person carry the arm, so that it can move and not fall. Fingers out. The motor on output \
+             {output} is next. Enter."
         );
         self.ask(&what).map(drop)
     }

@@ -130,6 +130,14 @@ pub trait Hands {
     /// As [`Self::place`].
     fn rest(&mut self, joint: usize, towards: f64) -> anyhow::Result<()>;
 
+    /// Carries the arm's weight and leaves the joint on this motor output free to move.
+    ///
+    /// # Errors
+    /// As [`Self::place`].
+    fn carry(&mut self, _output: u8) -> anyhow::Result<()> {
+        Ok(())
+    }
+
     /// Has a known weight pull at the probe with this force, N, over a pulley if necessary; zero removes it. Returns
     /// the weight's force, N.
     ///

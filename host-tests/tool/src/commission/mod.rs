@@ -20,6 +20,7 @@ mod port;
 mod torques;
 mod world;
 
+pub(crate) use device::said;
 pub use device::{Device, Key, KeyHeld, Line, NoKey};
 pub use emulated::EmulatedLine;
 pub use encoders::{GIVE, angle, begin_within};
@@ -30,6 +31,7 @@ pub use keyboard::Person;
 pub use lab::Finding;
 pub use lab::Hands;
 pub use lab::{Lab, RATE, Zero};
+pub use motors::MOVED;
 pub use on_host::HostLine;
 pub use port::PortLine;
 pub use world::{Planted, PlantedFault};

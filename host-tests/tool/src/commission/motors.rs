@@ -7,7 +7,7 @@ use anyhow::{Context, bail};
 use palpate_sim::devices::{DeviceFile, OwnDevice};
 
 /// Minimum motion of a joint, rad: many counts, and little for the person who holds the others.
-const MOVED: f64 = 0.01;
+pub const MOVED: f64 = 0.01;
 
 /// Finds the motors and writes them into the file. `loads` are gravity's torques on the joints, N·m: the direction in
 /// which each falls.

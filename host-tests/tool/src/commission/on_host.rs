@@ -3,7 +3,8 @@
 use super::{Line, RATE, World};
 use anyhow::{Context as _, bail};
 use palpate::commission::Wiring;
-use palpate::device::{Counts, Device, Duty, ElectricalAngle, Homing, Kinematics, Protection, Reference};
+use palpate::device::drive::Field;
+use palpate::device::{Counts, Device, Duty, Homing, Kinematics, Protection, Reference};
 use palpate::math::vec3;
 use palpate::patch::SplinePatch;
 use palpate::servo::{Config, Guarded, ResetReason, Servo, Settings};
@@ -71,7 +72,7 @@ impl AtPins<3> for AtBench {
         self.world().take_marks().map(|mark| mark.map(Counts))
     }
 
-    fn advance(&mut self, _: Option<[ElectricalAngle; 3]>, duties: Option<[Duty; 3]>) {
+    fn advance(&mut self, _: Option<[Field; 3]>, duties: Option<[Duty; 3]>) {
         self.world().advance(duties.unwrap_or_default().map(|duty| duty.0));
     }
 }

@@ -162,6 +162,14 @@ impl Hands for SimulatedHands {
         Ok(())
     }
 
+    fn carry(&mut self, output: u8) -> anyhow::Result<()> {
+        let mut world = lock(&self.world);
+        let joint = world.planted.motor_on[usize::from(output)];
+        let stops = world.planted.plant.joints[joint].stops;
+        world.plant.move_stops(joint, stops);
+        Ok(())
+    }
+
     fn pull(&mut self, force: [f64; 3]) -> anyhow::Result<f64> {
         *lock(&lock(&self.world).far) = force.map(|part| part / SOFT);
         Ok(force.iter().map(|part| part * part).sum::<f64>().sqrt())
@@ -232,6 +240,13 @@ impl Planted {
             let (input, output) = (entry.encoder.channel, entry.motor.channel);
             (self.encoder_on[input], self.mark_on[input], self.motor_on[output]) = (joint, joint, joint);
         }
+        self
+    }
+
+    /// The same with an arm whose weight somebody carries.
+    #[must_use]
+    pub fn carried(mut self) -> Self {
+        self.plant.gravity = 0.0;
         self
     }
 

@@ -2,8 +2,8 @@
 
 use palpate::servo::Fault;
 use palpate_bench::{Chopper, CurrentWatch};
-use palpate_sim::knob::{CHOPPER, CURRENTS, HostKnob, SETTINGS};
-use palpate_sim::plant::{DialSettings, Fingers, MagneticFault};
+use palpate_sim::knob::{CHOPPER, CURRENTS, HostKnob, SETTINGS, dial};
+use palpate_sim::plant::{Fingers, MagneticFault};
 
 /// The spring, in which a turned dial needs every phase.
 const SPRING: u8 = 3;
@@ -57,7 +57,7 @@ impl KnobBench {
     fn running() -> Self {
         let rate = SETTINGS.rate_hz;
         let mut bench = Self {
-            knob: HostKnob::running(DialSettings::gimbal_knob(), None),
+            knob: HostKnob::running(dial(), None),
             watch: CurrentWatch::new(CURRENTS),
             are_currents_measured: true,
             chopper: Chopper::new(CHOPPER, rate),
@@ -85,7 +85,7 @@ impl KnobBench {
         let amps = self.are_currents_measured.then(|| self.knob.dial.currents().map(|current| current as f32));
         self.knob.tick();
         if let Some([field]) = driven
-            && self.watch.next(field, amps).is_err()
+            && self.watch.next(field.angle, amps).is_err()
         {
             self.knob.note(palpate::servo::Event::DriveFault);
         }

@@ -9,9 +9,9 @@ use palpate_sim::feel::{Deed, Spectrum, Threshold, thirds};
 const RANGE: [f64; 2] = [1e-10, 1e-4];
 const FREQUENCIES: [f64; 2] = [20.0, 1_000.0];
 
-/// Draws the curves of a device.
+/// Draws the curves of a device; not that of free air, whose vibration is the scripted hand's own.
 pub fn spectra(svg: &mut Svg, area: Area, rows: &[Row], threshold: &Threshold) {
-    let steady = |row: &&Row| matches!(row.script.deed, Deed::Rest | Deed::Slide | Deed::Across(None) | Deed::Air);
+    let steady = |row: &&Row| matches!(row.script.deed, Deed::Rest | Deed::Slide | Deed::Across(None));
     let curves: Vec<(&str, &Spectrum)> =
         rows.iter().filter(steady).map(|row| (row.script.name.as_str(), &row.figures.displacement)).collect();
     of_curves(svg, area, &curves, threshold);

@@ -39,12 +39,21 @@ pub struct Wish {
 impl Wish {
     /// The loop's settings on a device.
     pub fn settings(&self, device: &ShippedDevice) -> Settings {
-        let limits = device.preset.limits();
+        let (wished, limits) = (self.wished(device), device.preset.limits());
+        Settings {
+            stiffness_n_per_m: wished.stiffness_n_per_m.min(limits.stiffness),
+            damping_n_s_per_m: wished.damping_n_s_per_m.min(limits.damping),
+            ..wished
+        }
+    }
+
+    /// The same as wished, even beyond the device's limits.
+    pub fn wished(&self, device: &ShippedDevice) -> Settings {
         Settings {
             rate_hz: self.rate,
-            stiffness_n_per_m: self.stiffness.min(limits.stiffness),
-            damping_n_s_per_m: self.damping.min(limits.damping),
-            max_force_n: limits.force,
+            stiffness_n_per_m: self.stiffness,
+            damping_n_s_per_m: self.damping,
+            max_force_n: device.preset.limits().force,
             velocity_corner_hz: self.corner,
             soft_start_s: 0.1,
             body_origin_m: Vec3::ZERO,
@@ -66,6 +75,8 @@ pub struct Row {
     /// For a perceptible slide: the factor by which the encoders must be finer to hide it; infinite if none of the
     /// tried ones is enough.
     pub finer: Option<f64>,
+    /// Contacts that the loop released.
+    pub contacts_lost: u32,
 }
 
 /// A body whose edges are crossed.
@@ -206,7 +217,14 @@ impl Bench<'_> {
             Deed::Across(Some(normals)) => recording.turn(normals, script.looked_at),
             _ => None,
         };
-        Ok(Row { force_error: steady.then(|| figures.force / asked - 1.0), turn, finer: None, figures, script })
+        Ok(Row {
+            force_error: steady.then(|| figures.force / asked - 1.0),
+            turn,
+            finer: None,
+            contacts_lost: recording.contacts_lost,
+            figures,
+            script,
+        })
     }
 
     fn slide<K: Kinematics<JOINTS> + Copy, const JOINTS: usize>(

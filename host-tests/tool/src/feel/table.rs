@@ -1,7 +1,7 @@
 //! Rows as text and as CSV, and a device on a line.
 
 use super::rows::Row;
-use crate::report::Table;
+use crate::report::{Table, contacts_lost as contacts};
 use palpate_sim::feel::{BANDS, Deed, ROUND};
 use std::fmt::Write as _;
 use std::path::Path;
@@ -40,7 +40,9 @@ const COLUMNS: [(&str, &str, usize); 14] = [
     ("finer", "", 7),
 ];
 
-fn cells(Row { script, figures, force_error, turn, finer }: &Row) -> [String; COLUMNS.len()] {
+fn cells(Row { script, figures, force_error, turn, finer, .. }: &Row) -> [String; COLUMNS.len()] {
+    // In free air there is no force: the vibration is the scripted hand's own, which turns round at once.
+    let is_air = script.deed == Deed::Air;
     let [contact, release, any] =
         [figures.steps.contact, figures.steps.release, figures.steps.any].map(|step| format!("{:.1}", step * 1e3));
     [
@@ -50,11 +52,11 @@ fn cells(Row { script, figures, force_error, turn, finer }: &Row) -> [String; CO
         any,
         format!("{:.1}", figures.ripple * 1e3),
         figures.bands.map(|band| format!("{:.1}", band * 1e3)).join(" "),
-        in_words(figures.sensation.level),
-        format!("{:.0}", figures.sensation.frequency),
+        or_dash((!is_air).then(|| in_words(figures.sensation.level))),
+        or_dash((!is_air).then(|| format!("{:.0}", figures.sensation.frequency))),
         format!("{:.3}", figures.force),
         or_dash(force_error.map(percent)),
-        or_dash((script.deed == Deed::Air).then(|| format!("{:.3}", figures.drag))),
+        or_dash(is_air.then(|| format!("{:.3}", figures.drag))),
         format!("{:.1}", figures.afterglow * 1e3),
         or_dash(turn.map(|turn| format!("{:.2}", turn * 1e3))),
         or_dash(finer.map(|factor| format!("{factor}x"))),
@@ -76,6 +78,13 @@ pub fn text(rows: &[Row]) -> String {
         text.push('\n');
     }
     text
+}
+
+/// The scripts in which the loop released contacts, and the reason; empty if there are none.
+pub fn contacts_lost(rows: &[Row]) -> String {
+    let rows = rows.iter().filter(|row| row.contacts_lost > 0);
+    let lines = rows.map(|row| format!("contacts lost, {}: {}\n", row.script.name, contacts(row.contacts_lost)));
+    lines.collect()
 }
 
 /// The same for a report.
@@ -106,7 +115,7 @@ pub fn write_csv(rows: &[(&str, Vec<Row>)], path: &Path) -> csv::Result<()> {
     ]);
     writer.write_record(header)?;
     for (device, rows) in rows {
-        for Row { script, figures, force_error, turn, finer } in rows {
+        for Row { script, figures, force_error, turn, finer, .. } in rows {
             let optional = |value: &Option<f64>| value.map_or_else(String::new, |value| value.to_string());
             let mut row = vec![(*device).to_owned(), script.name.clone()];
             let steps = figures.steps;

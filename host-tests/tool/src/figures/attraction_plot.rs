@@ -4,7 +4,7 @@ use super::attraction::{Basin, Run, STARTS, Target, start_grid};
 use super::attraction::{Comparison, DRAWN};
 use super::page::{THICK, scene, sight, view_of};
 use super::subject::Subject;
-use crate::plot::{Anchor, Area, Axes, Axis, Ink, Mark, SHEET, Svg, View, draw as svg};
+use crate::plot::{Anchor, Area, Axes, Axis, FIGURE, Ink, Mark, Svg, View, draw as svg};
 
 /// Number of points of the surface that a drawn step passes through.
 const STEP_POINTS: usize = 16;
@@ -13,8 +13,8 @@ const MOST_DOTS: usize = 60;
 
 /// The figure, as SVG text.
 pub fn draw(subject: &Subject, comparison: &Comparison) -> String {
-    svg(SHEET, 1_760.0, |svg, area| {
-        let panels = area.split(DRAWN.len(), 2);
+    svg(FIGURE, 3_200.0, |svg, area| {
+        let panels = area.split(2 * DRAWN.len(), 1);
         let target = &comparison.targets[comparison.drawn];
         let view = view_of(subject, &[comparison.start, target.closest.parameters]);
         for (row, contender) in DRAWN.into_iter().enumerate() {

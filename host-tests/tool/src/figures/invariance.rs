@@ -2,7 +2,7 @@
 
 use super::page::{THICK, scene, sight, view_of};
 use super::subject::{Subject, cell_centres};
-use crate::plot::{Area, Axes, Axis, Chart, Ink, Key, Mark, SHEET, Svg, draw};
+use crate::plot::{Area, Axes, Axis, Chart, FIGURE, Ink, Key, Mark, Svg, draw};
 use glam::DVec3;
 use palpate::math::Vec3;
 use palpate::track::{BoundaryMode, Controller, FirstOrder, Gain, Outcome, Probe, ProjectionErrors, Witness};
@@ -190,8 +190,8 @@ fn second_order(subject: &Subject, probe: Vec3, start: [f64; 2]) -> Vec<DVec3> {
 
 /// The figure, as SVG text.
 pub fn draw_passage(subject: &Subject, passage: &Passage) -> String {
-    draw(SHEET, 720.0, |svg, area| {
-        let panels = area.split(2, 2);
+    draw(FIGURE, 1_280.0, |svg, area| {
+        let panels = area.split(4, 1);
         path(svg, panels[0], subject, passage);
         let border = passage.stretches()[1].first().map_or(BoundaryMode::Interior, |sample| sample.mode);
         let title = format!("(B) mode: 5 interior, {} {}", border as u8, place(border));

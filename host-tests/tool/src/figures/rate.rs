@@ -4,7 +4,7 @@
 use super::page::THIN;
 use super::subject::Subject;
 use super::tracking::Configuration;
-use crate::plot::{Area, Axes, Axis, Ink, Key, Mark, SHEET, Svg, draw};
+use crate::plot::{Area, Axes, Axis, FIGURE, Ink, Key, Mark, Svg, draw};
 use palpate::math::Vec3;
 use palpate::track::{Controller, FirstOrder, Probe, Witness};
 use palpate_bake::Axis as Parameter;
@@ -130,8 +130,8 @@ const LEAST: f64 = 1e-8;
 
 /// The figure, as SVG text.
 pub fn draw_rates(rates: &[Rate], lags: &[Lag]) -> String {
-    draw(SHEET, 440.0, |svg, area| {
-        let panels = area.split(1, 2);
+    draw(FIGURE, 800.0, |svg, area| {
+        let panels = area.split(2, 1);
         arriving(svg, panels[0], rates);
         following(svg, panels[1], lags);
     })

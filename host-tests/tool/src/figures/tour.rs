@@ -2,7 +2,7 @@
 
 use super::page::{THICK, THIN};
 use crate::models;
-use crate::plot::{Anchor, Area, Axes, Axis, Chart, Ink, Mark, SHEET, Svg, View, draw};
+use crate::plot::{Anchor, Area, Axes, Axis, Chart, FIGURE, Ink, Mark, Svg, View, draw};
 use anyhow::{Context as _, ensure};
 use glam::DVec3;
 use palpate::body::{Body, Feature};
@@ -175,8 +175,8 @@ fn ink(feature: Feature) -> Ink {
 
 /// Figure 9: the way around the body, and `u`, `v` and the active feature over time.
 pub fn draw_tour(touring: &Touring, samples: &[Sample]) -> String {
-    draw(SHEET, 860.0, |svg, area| {
-        let (upper, lower) = area.split_at(520.0);
+    draw(FIGURE, 640.0, |svg, area| {
+        let (upper, lower) = area.split_at(320.0);
         around(svg, upper, touring, samples);
         over_time(svg, lower, touring, samples);
     })
@@ -221,8 +221,8 @@ fn over_time(svg: &mut Svg, area: Area, touring: &Touring, samples: &[Sample]) {
         if let Feature::Face(face) = stretch[0].feature {
             let middle = 0.5 * (stretch[0].time + end(stretch));
             let name = touring.face_name(face);
-            // As much as its words need of 800 px.
-            if end(stretch) - stretch[0].time > ROUND * (8.0 * name.chars().count() as f64 + 8.0) / 800.0 {
+            // As much as its words need of 360 px.
+            if end(stretch) - stretch[0].time > ROUND * (8.0 * name.chars().count() as f64 + 8.0) / 360.0 {
                 chart.words((middle, 1.09), (0.0, 0.0), Anchor::Middle, Ink::Text, &name);
             }
         }
@@ -236,8 +236,8 @@ fn over_time(svg: &mut Svg, area: Area, touring: &Touring, samples: &[Sample]) {
 
 /// Figure 3: slices through the Voronoi regions.
 pub fn draw_regions(slices: &[Slice; 2]) -> String {
-    draw(SHEET, 480.0, |svg, area| {
-        slices.iter().zip(area.split(1, 2)).for_each(|(slice, panel)| draw_slice(svg, panel, slice));
+    draw(FIGURE, 960.0, |svg, area| {
+        slices.iter().zip(area.split(2, 1)).for_each(|(slice, panel)| draw_slice(svg, panel, slice));
     })
 }
 

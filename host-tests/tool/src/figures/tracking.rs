@@ -2,7 +2,7 @@
 
 use super::page::{THICK, THIN, scene, view_across};
 use super::subject::Subject;
-use crate::plot::{Area, Axes, Axis, Ink, Key, Mark, SHEET, Svg, draw};
+use crate::plot::{Area, Axes, Axis, FIGURE, Ink, Key, Mark, Svg, draw};
 use anyhow::bail;
 use glam::DVec3;
 use palpate::math::Vec3;
@@ -231,14 +231,13 @@ const SNAPSHOT: usize = 12;
 
 /// The figure, as SVG text: runs at the good, the chattering and the slow gain, and those without a gain to choose.
 pub fn draw_tracking(subject: &Subject, runs: &[Vec<Sample>; 3], certified: &[Vec<Sample>; 2]) -> String {
-    draw(SHEET, 1_100.0, |svg, area| {
-        let rows = area.split(3, 1);
-        let (upper, lower) = (rows[0].split(1, 2), rows[1].split(1, 2));
-        path(svg, upper[0], subject, &runs[0]);
-        errors(svg, upper[1], "(B) K = 50 1/s", &runs[0]);
-        errors(svg, lower[0], "(C) K = 1300 1/s: chatter", &runs[1]);
-        errors(svg, lower[1], "(D) K = 0.02 1/s: slow", &runs[2]);
-        lags(svg, rows[2], [&runs[0], &certified[0], &certified[1]]);
+    draw(FIGURE, 1_600.0, |svg, area| {
+        let panels = area.split(5, 1);
+        path(svg, panels[0], subject, &runs[0]);
+        errors(svg, panels[1], "(B) K = 50 1/s", &runs[0]);
+        errors(svg, panels[2], "(C) K = 1300 1/s: chatter", &runs[1]);
+        errors(svg, panels[3], "(D) K = 0.02 1/s: slow", &runs[2]);
+        lags(svg, panels[4], [&runs[0], &certified[0], &certified[1]]);
     })
 }
 
@@ -293,7 +292,7 @@ fn errors(svg: &mut Svg, area: Area, title: &str, run: &[Sample]) {
 
 /// The limits of stability: predictions as lines, measurements as dots.
 pub fn draw_limits(limits: &[Limit], rest: &Configuration) -> String {
-    draw(720.0, 480.0, |svg, area| {
+    draw(FIGURE, 480.0, |svg, area| {
         let end = limits.iter().map(|limit| limit.product).fold(0.0, f64::max) + 0.1;
         let runs = [
             (Integrator::RungeKutta4, "Runge–Kutta: 2.785 / (h (1 + κ ‖ΔR‖))", Ink::Green),
@@ -309,7 +308,7 @@ pub fn draw_limits(limits: &[Limit], rest: &Configuration) -> String {
         let keys: Vec<Key<'_>> = named.chain(others).collect();
         // Both lines from the start on: 2.785 / h at most.
         let (x, y) = (Axis::linear("κ ‖ΔR‖", [0.0, end]), Axis::linear("K, 1/s", [0.0, 2_900.0]));
-        let title = "Maximum stable gain, step 1 ms: lines predicted, marks measured";
+        let title = "Maximum stable gain, step 1 ms";
         let mut chart = Axes { title, x, y, keys: &keys }.on(svg, area);
         for (integrator, name, ink) in runs {
             let points = limits.iter().filter(|limit| limit.integrator == integrator);

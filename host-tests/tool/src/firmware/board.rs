@@ -35,6 +35,11 @@ impl Board {
     /// Those whose images run every program and are proved: the Cortex-M cores with floats.
     pub const CORTEX_F: [Self; 3] = [Self::M4, Self::M7, Self::M33];
 
+    /// The programs that other cores run too, without a feature of the boards' crate.
+    pub const ON_ANY_CORE: [&str; 5] = ["uart", "fifo", "parity", "budget", "file_budget"];
+    /// Those that need the interrupts of a Cortex-M, and its atomic exchanges.
+    pub const ON_CORTEX_F: [&str; 7] = ["accept", "bench", "knob_link", "link", "log", "stack", "telemetry"];
+
     /// Takes one of [`Self::CORTEX_F`] from the command line.
     pub fn cortex_f() -> impl TypedValueParser<Value = Self> {
         let named = |name: String| Self::CORTEX_F.into_iter().find(|board| board.name() == name);

@@ -61,6 +61,11 @@ pub trait Link {
         None
     }
 
+    /// Contacts released so far ([`palpate::servo::ServoState::contacts_lost`]); `None` where reports do not carry it.
+    fn contacts_lost(&self) -> Option<u32> {
+        None
+    }
+
     /// Sends a frame of sensors.
     ///
     /// # Errors

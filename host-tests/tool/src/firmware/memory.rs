@@ -77,7 +77,7 @@ impl BenchBoard {
             memory("STACK", 0x2000_0000, 8 * KB, "RAM, all for the stack"),
             memory("RAM", 0x2000_2000, 28 * KB, "RAM"),
             memory("TABLES", 0x2000_9000, 60 * KB, "RAM"),
-            memory("FLASH", 0x0800_0000, 128 * KB, "flash"),
+            memory("FLASH", 0x0800_0000, 129 * KB, "flash"),
         ];
         const PICO2_HOSTED: &[Memory] = &[
             memory("STACK", 0x2000_0000, 32 * KB, "RAM, all for the stack"),

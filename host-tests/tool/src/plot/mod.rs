@@ -12,8 +12,6 @@ pub use view::View;
 pub const WIDTHS: [f64; 2] = [880.0, 350.0];
 /// Of a figure in a page of the documentation, so that a phone shows its words 10 px high.
 pub const FIGURE: f64 = 440.0;
-/// Of a sheet of the paper's figures, which opens by itself.
-pub const SHEET: f64 = 880.0;
 
 /// Draws one chart, or several below each other, into an SVG of its own.
 pub fn draw(width: f64, height: f64, content: impl FnOnce(&mut Svg, Area)) -> String {

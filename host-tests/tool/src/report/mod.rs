@@ -6,4 +6,4 @@ mod summary;
 
 pub use html::{Report, Section, Table};
 pub use plots::{path, sections};
-pub use summary::{Instructions, Summary};
+pub use summary::{Instructions, Summary, contacts_lost};

@@ -39,6 +39,8 @@ pub struct Summary {
     pub largest_force: f64,
     /// Largest depth in contact, metres.
     pub largest_penetration: f64,
+    /// Contacts released because they were too deep or no motion explained them, where they are counted.
+    pub contacts_lost: Option<u32>,
     /// Frames lost, late or damaged, as the loop counted them.
     pub frames_lost: u32,
     /// Rejected controller steps.
@@ -77,6 +79,7 @@ impl Summary {
             contact_time: reports().filter(touching).count() as f64 / trace.rate,
             largest_force: reports().map(|report| norm(report.force)).fold(0.0, f64::max),
             largest_penetration: reports().filter(touching).map(|report| -f64::from(report.gap)).fold(0.0, f64::max),
+            contacts_lost: trace.contacts_lost,
             frames_lost: last.frames_lost,
             rejected_steps: last.rejected_steps,
             state_hash: reports().fold(0, |hash, report| (hash ^ report.digest).wrapping_mul(0x0100_0193)),
@@ -102,7 +105,9 @@ impl Summary {
             }
             None => "none".to_owned(),
         };
-        vec![
+        let lost = self.contacts_lost.filter(|count| *count > 0);
+        let lost = lost.map(|count| ("contacts lost", contacts_lost(count)));
+        let before = [
             ("ticks", format!("{} at {} Hz", self.ticks, self.rate)),
             (
                 "features",
@@ -115,10 +120,13 @@ impl Summary {
             ("largest penetration", format!("{:.2} mm", self.largest_penetration * 1e3)),
             ("frames lost", self.frames_lost.to_string()),
             ("faults", fault),
+        ];
+        let after = [
             ("rejected steps", self.rejected_steps.to_string()),
             ("state hash", format!("{:08x}", self.state_hash)),
             ("instructions a tick", instructions),
-        ]
+        ];
+        before.into_iter().chain(lost).chain(after).collect()
     }
 }
 
@@ -126,6 +134,11 @@ impl fmt::Display for Summary {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.rows().iter().try_for_each(|(name, value)| writeln!(formatter, "  {name:<20} {value}"))
     }
+}
+
+/// A count of released contacts, with the reason.
+pub fn contacts_lost(count: u32) -> String {
+    format!("{count}, too deep: released at the contact limit, or a jump that no motion explains")
 }
 
 /// How many of these features are faces, edges and vertices.

@@ -1,7 +1,6 @@
 //! A line of the console, understood: millimetres and degrees to metres and radians.
 
 use palpate::render::{Detents, DialFriction, Ends, FeelPart, Notch, Spring, Wave};
-use palpate::servo::DAMPING_PER_STIFFNESS_S;
 use std::f32::consts::TAU;
 use std::path::PathBuf;
 use std::str::{FromStr, SplitWhitespace};
@@ -124,9 +123,12 @@ pub const FORMS: [(&str, &str); 37] = [
     ("forget BODY", "the same, and delete the stored body; the motors must be off"),
     ("detents DEGREES MNM [CENTRE]", "of a knob: smooth detents of this pitch and torque, in mN·m; `detents off`"),
     ("clicks DEGREES MNM FIRST LAST", "detents that snap, numbered from the first to the last; `clicks off`"),
-    ("texture DEGREES MNM", "a fine one of this pitch; `texture off`"),
+    ("texture DEGREES MNM", "of a knob: a fine one of this pitch; a body's is its scene's; `texture off`"),
     ("spring MNM_PER_RAD MAX REST", "a spring to this angle with a maximum torque; `spring off`"),
-    ("ends FROM TO MNM_PER_RAD [DAMPING]", "end stops between angles, damped in mN·m·s/rad; `ends off`"),
+    (
+        "ends FROM TO MNM_PER_RAD [DAMPING]",
+        "end stops between angles, damped in mN·m·s/rad, by default by 1 or what they need; `ends off`",
+    ),
     ("damping VALUE", "damping everywhere in mN·m·s/rad: 0.7 for each 1,000 mN·m/rad of the parts' stiffness, or more"),
     (
         "friction MNM [RATE]",
@@ -141,7 +143,8 @@ pub const FORMS: [(&str, &str); 37] = [
     ("release", "releases it"),
     (
         "reset",
-        "resets the simulated knob (--host); its hand is away for 4 s: at once `press` for 2 s, `release`, `press`",
+        "resets the simulated knob (--host); it aligns within 4 s by `wait 0.2`, `press`, `wait 2`, `release`, `wait 0.2`, \
+         `press`",
     ),
     ("wait SECONDS", "the next line of a file waits"),
     ("stop", "stops the device until it is reset"),
@@ -293,12 +296,7 @@ impl Words<'_> {
 
     fn clicks(&mut self) -> Result<Detents, Misunderstood> {
         let (pitch, max_force) = (self.angle("DEGREES")?, self.milli("MNM")?);
-        let snap = 0.55;
-        // The whole torque where the next one takes over, and four times as stiff beyond the outer ones.
-        let stiffness = max_force / (snap * pitch);
-        let (first, last, wall_stiffness) = (self.integer("FIRST")?, self.integer("LAST")?, 4.0 * stiffness);
-        let damping = DAMPING_PER_STIFFNESS_S * wall_stiffness;
-        Ok(Detents { pitch, stiffness, damping, snap, first, last, wall_stiffness, max_force })
+        Ok(palpate_link::clicks(pitch, max_force, [self.integer("FIRST")?, self.integer("LAST")?], 0.55, None))
     }
 
     fn spring(&mut self) -> Result<Spring, Misunderstood> {
@@ -307,8 +305,9 @@ impl Words<'_> {
     }
 
     fn ends(&mut self) -> Result<Ends, Misunderstood> {
-        let (between_rad, stiffness_n_m_per_rad) = ([self.angle("FROM")?, self.angle("TO")?], self.stiffness()?);
-        Ok(Ends { between_rad, stiffness_n_m_per_rad, damping_n_m_s_per_rad: self.optional_number(1.0)? / 1e3 })
+        let (between, stiffness) = ([self.angle("FROM")?, self.angle("TO")?], self.stiffness()?);
+        let damping = self.optional().map(|word| self.is_number(word, "number")).transpose()?;
+        Ok(palpate_link::ends(between, stiffness, damping.map(|damping| damping / 1e3)))
     }
 
     fn dial_friction(&mut self) -> Result<DialFriction, Misunderstood> {
@@ -417,6 +416,9 @@ impl FromStr for Asked {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use palpate::device::presets::GIMBAL_KNOB;
+    use palpate::render::Feel;
+    use palpate::servo::Knob;
 
     #[test]
     fn millimetres_and_degrees_become_metres_and_radians() {
@@ -450,6 +452,10 @@ mod tests {
         assert!((spring.rest_rad + TAU / 4.0).abs() < 1e-6);
         let Ok(Asked::Feel(FeelPart::Clicks(Some(clicks)))) = "clicks 15 30 -5 5".parse() else { panic!("clicks") };
         assert!((clicks.stiffness * clicks.snap * clicks.pitch - 0.03).abs() < 1e-6, "{clicks:?}");
+        // The stiffest end stops that the device takes, by default as damped as it asks for.
+        let Ok(Asked::Feel(FeelPart::Ends(ends @ Some(_)))) = "ends -60 60 1600".parse() else { panic!("end stops") };
+        let feels = Box::leak(Box::new([Feel { ends, ..Feel::FREE }]));
+        assert!(Knob::try_new(&GIMBAL_KNOB, feels, 0.5).is_ok(), "{ends:?}");
         assert_eq!("notch off".parse(), Ok(Asked::Feel(FeelPart::Notch(None))));
         assert_eq!("free".parse(), Ok(Asked::Feel(FeelPart::Free)));
     }

@@ -150,7 +150,7 @@ impl<'a, L: Line> Console<'a, L> {
             if last.is_none_or(|last| now.saturating_duration_since(last) >= SHOWS) {
                 self.turns = Some((until, Some(now)));
                 let dial = self.device.dial(Duration::ZERO)?;
-                writeln!(output, "{}{}", turned(&dial), stopped(&view))?;
+                writeln!(output, "{}{}", turned(&dial), idle(&view))?;
             }
             self.turns = self.turns.filter(|_| now < until);
         }
@@ -378,9 +378,9 @@ pub(super) fn is_knob(hello: &Hello) -> bool {
     hello.max_force == 0.0
 }
 
-/// The dial's angle with its turns.
+/// The angle by which the parts of its feel are placed.
 pub(super) fn degrees(dial: &Dial) -> f64 {
-    360.0 * f64::from(dial.turns) + f64::from(dial.angle).to_degrees()
+    f64::from(dial.angle).to_degrees()
 }
 
 /// The dial in a line.
@@ -395,8 +395,9 @@ fn turned(dial: &Dial) -> String {
         2 => "; a kept feel is damaged or beyond this device's limits: set it and keep it again, or forget it",
         _ => "",
     };
+    let turn = if dial.turns == 0 { String::new() } else { format!(" of turn {}", dial.turns) };
     format!(
-        "dial at {:.1} degrees, {:.2} rad/s, {:.1} mN·m; detent {}{end}; feel {}{kept}",
+        "dial at {:.1} degrees{turn}, {:.2} rad/s, {:.1} mN·m; detent {}{end}; feel {}{kept}",
         degrees(dial),
         dial.rate,
         1e3 * dial.torque,
@@ -405,9 +406,9 @@ fn turned(dial: &Dial) -> String {
     )
 }
 
-/// The fault that stopped the device, if one did.
-fn stopped(view: &View) -> String {
-    Fault::from_code(view.fault).map_or_else(String::new, |fault| format!("; stopped: {fault}{}", reason(fault)))
+/// Why there is no force, if there is none.
+fn idle(view: &View) -> String {
+    if view.phase == Phase::Running as u8 { String::new() } else { format!("; {}", phase(view)) }
 }
 
 /// Where the reason of a fault is, which a view does not have.

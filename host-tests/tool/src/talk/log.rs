@@ -38,7 +38,7 @@ const ARM: [&str; 13] = [
     "force_y",
     "force_z",
 ];
-const KNOB: [&str; 6] = ["feel", "detent", "end", "angle_degrees", "rate_degrees_per_s", "torque_mn_m"];
+const KNOB: [&str; 7] = ["feel", "detent", "end", "angle_degrees", "rate_degrees_per_s", "torque_mn_m", "turns"];
 
 impl Log {
     /// A new file, for a device and rows at `rate`, Hz; without one, 1 kHz, or the rate at which a knob reports its dial.
@@ -103,6 +103,7 @@ impl Log {
             row.extend([view.phase, view.fault, view.hold, dial.feel].map(|number| number.to_string()));
             row.extend([dial.detent.to_string(), dial.end.to_string(), degrees(dial).to_string()]);
             row.extend([dial.rate.to_degrees(), 1e3 * dial.torque].map(|number| number.to_string()));
+            row.push(dial.turns.to_string());
             self.writer.write_record(row)?;
         }
         Ok(())

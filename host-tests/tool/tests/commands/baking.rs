@@ -267,3 +267,41 @@ fn the_ending_of_the_output_says_what_bake_writes() -> Result<(), Box<dyn Error>
     }
     Ok(())
 }
+
+/// A frame of 60 x 40 x 4 mm around a hole from (10, 10) to (40, 30), whose widest side, 20 mm, is at the right.
+fn frame() -> String {
+    let around = |[x0, y0]: [f64; 2], [x1, y1]: [f64; 2]| [[x0, y0], [x1, y0], [x1, y1], [x0, y1]];
+    let (outer, hole) = (around([0.0, 0.0], [60.0, 40.0]), around([10.0, 10.0], [40.0, 30.0]));
+    let mut text = "unit = \"mm\"\n".to_owned();
+    // The normal is (b − a) × (d − a).
+    let mut quad = |a: [f64; 3], b: [f64; 3], c: [f64; 3], d: [f64; 3]| {
+        text += &format!("[[patch]]\ndegree = [1, 1]\npoints = [[{a:?}, {d:?}], [{b:?}, {c:?}]]\n");
+    };
+    let at = |[x, y]: [f64; 2], z: f64| [x, y, z];
+    for (i, j) in [(0, 1), (1, 2), (2, 3), (3, 0)] {
+        let [a, b, c, d] = [outer[i], outer[j], hole[j], hole[i]];
+        quad(at(a, 4.0), at(b, 4.0), at(c, 4.0), at(d, 4.0));
+        quad(at(b, 0.0), at(a, 0.0), at(d, 0.0), at(c, 0.0));
+        quad(at(a, 0.0), at(b, 0.0), at(b, 4.0), at(a, 4.0));
+        quad(at(c, 0.0), at(d, 0.0), at(d, 4.0), at(c, 4.0));
+    }
+    text
+}
+
+#[test]
+fn the_top_in_a_header_is_away_from_the_rim_of_a_hole() -> Result<(), Box<dyn Error>> {
+    let directory = tempfile::tempdir()?;
+    fs::write(directory.path().join("frame.toml"), frame())?;
+    let mut bake = Command::new(env!("CARGO_BIN_EXE_palpate"));
+    let run = bake.args(["bake", "frame.toml", "--out", "frame.h"]).current_dir(&directory).output()?;
+    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+    let text = fs::read_to_string(directory.path().join("frame.h"))?;
+    let (_, top) = text.split_once("FRAME_TOP {").ok_or("no top")?;
+    let (top, _) = top.split_once('}').ok_or("no end")?;
+    let top: Vec<f64> = top.split(", ").map(|number| number.trim_end_matches('f').parse()).collect::<Result<_, _>>()?;
+    let [x, y, z] = top[..] else { panic!("{top:?}") };
+    // No point is more than 10 mm from hole and border.
+    let clear = (0.06 - x).min(x - 0.04).min(y).min(0.04 - y);
+    assert!(clear > 8.5e-3 && z == 0.004, "{top:?}: {clear}");
+    Ok(())
+}

@@ -79,6 +79,11 @@ fn a_run_that_ends_before_all_polarities_are_confirmed_says_so_and_for_how_long(
     // The pulses alone: below a quarter of 5 N.
     assert!(force < 1.25 && short.contains("a not confirmed, elbow not confirmed, c not confirmed"), "{short}");
     assert!(short.contains("force withheld for 0.10 s, to the end"), "{short}");
+    // The force of a first contact, but too low for the pulses of a joint.
+    let Demo { options } = Demo::parse_from(["demo", "--seconds", "1", "--protected", "--max-force", "0.5"]);
+    let scene = options.scene().unwrap();
+    let weak = scene.withheld(&run_on_host(&options, &scene).unwrap()).expect("a polarity check").1;
+    assert!(weak.contains("too weak at 0.5 N") && weak.contains("joint b needs max_force 2."), "{weak}");
     let (whole, force) = withheld("2");
     assert!(force > 1.0 && !whole.contains("not confirmed") && !whole.contains("to the end"), "{whole}");
 }

@@ -100,3 +100,24 @@ fn a_recording_of_another_device_is_refused() -> Result<(), Box<dyn Error>> {
     }
     Ok(())
 }
+
+/// A wall of half a newton holds no hand of this stiffness: it is pushed 10 mm in, the limit.
+#[test]
+fn a_contact_that_was_released_is_printed_beside_the_faults() -> Result<(), Box<dyn Error>> {
+    let folder = tempfile::tempdir()?;
+    let report = folder.path().join("demo.html");
+    let report_path = report.to_str().unwrap_or_default();
+    for (arguments, is_lost) in [
+        (&["sim", "--max-force", "0.5"][..], true),
+        (&["sim"], false),
+        (&["demo", "--host", "--max-force", "0.5", "--report", report_path], true),
+    ] {
+        let said = String::from_utf8(palpate(arguments)?.stdout)?;
+        let mut lines = said.lines().skip_while(|line| !line.contains("  faults  ")).skip(1);
+        let row = "  contacts lost        1, too deep: released at the contact limit";
+        assert_eq!(lines.next().is_some_and(|line| line.starts_with(row)), is_lost, "{said}");
+        assert_eq!(said.contains("contacts lost"), is_lost, "{said}");
+    }
+    assert!(std::fs::read_to_string(&report)?.contains("contacts lost"));
+    Ok(())
+}

@@ -88,10 +88,14 @@ fn a_knob_says_what_became_of_its_feel() {
                    cleared: it starts with its table from the next reset on\n";
     assert_eq!((status, said.contains(outcome)), (Some(0), true), "{said}{complained}");
     // A reset starts with what was kept: spring and damping have no detents, the table's first feel has 30 mN·m.
-    let lines =
-        "free\ndamping 1\nkeep-feel\nreset\nwait 0.1\npress\nwait 2.5\nrelease\nwait 0.3\npress\nwait 0.5\nwhere\n";
-    let (status, said, complained) = talk(&arguments, lines);
+    // It is aligned as the help says.
+    let (_, help, _) = talk(&arguments, "help\n");
+    let aligns = help.lines().find(|line| line.starts_with("reset ")).expect("reset");
+    let aligns: String = aligns.split('`').skip(1).step_by(2).map(|line| format!("{line}\n")).collect();
+    let lines = format!("free\ndamping 1\nkeep-feel\nreset\ndial 0\n{aligns}wait 0.5\nwhere\n");
+    let (status, said, complained) = talk(&arguments, &lines);
     let last = said.lines().last().unwrap_or_default();
+    assert!(said.contains("; the kept feel was used; calibrating"), "{said}{complained}");
     assert!(status == Some(0) && last.contains("; feel 6; the kept feel was used; running"), "{said}{complained}");
     let (status, _, complained) = talk(&["--host"], "reset\n");
     assert!(status == Some(2) && complained.contains("only the simulated knob is reset from here"), "{complained}");
@@ -125,6 +129,14 @@ fn a_knob_says_what_became_of_its_feel() {
         let (status, _, complained) = talk(&arguments, lines);
         assert!(status == Some(2) && complained.contains(says), "{complained}");
     }
+}
+
+#[test]
+fn a_log_of_a_device_in_this_program_has_each_row() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("log.csv");
+    let (_, said, complained) = talk(&["--host", "--log", path.to_str().unwrap()], "wait 1\n");
+    assert!(said.trim_end().ends_with(" rows at 1000 Hz, 0 missing"), "{said}{complained}");
 }
 
 #[test]

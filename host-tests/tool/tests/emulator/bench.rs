@@ -188,6 +188,7 @@ fn baked(name: &Path, folder: &Path) -> (PathBuf, u64) {
         out_file: &out_file,
         model: file.text.as_bytes(),
         centre: model.centre,
+        limit: palpate::body::TickLimit::BENCH,
     };
     let path = folder.join(&out_file);
     fs::write(&path, palpate_bake::source::source(&origin, &model, &body).unwrap()).unwrap();

@@ -3,6 +3,8 @@
 use crate::running::{boards, is_wanted};
 use palpate_tool::budgets::{Budget, Figures, Images, Verdict, measure};
 use palpate_tool::firmware::{Board, Progress, is_long};
+use std::fs;
+use std::process::Command;
 
 /// A biquadratic evaluation by Horner's rule cannot do with fewer instructions: `palpate::patch` counts them.
 const EVALUATION_FLOOR: u32 = 94;
@@ -43,6 +45,44 @@ fn the_hot_path_is_within_its_budget() {
         if Board::CORTEX_F.contains(&board) {
             holds_its_promises(board, &found);
         }
+    }
+}
+
+/// A square tube, mm: 40 wide with a hole of 14, in which each tool lies in the opposite wall.
+#[test]
+fn a_tool_is_counted_where_it_is_outside_of_the_part() {
+    if !is_wanted("a part with a hole, with tools") {
+        return;
+    }
+    let square = |half: i32| [[half, half], [-half, half], [-half, -half], [half, -half]];
+    let (outside, inside, mut model) = (square(20), square(7), "name = \"tube\"\nunit = \"mm\"\n".to_owned());
+    for (from, to) in (0..4).map(|from| (from, (from + 1) % 4)) {
+        let at = |[x, y]: [i32; 2], z: i32| [x, y, z];
+        for points in [
+            [[at(outside[from], 0), at(outside[from], 40)], [at(outside[to], 0), at(outside[to], 40)]],
+            [[at(inside[to], 0), at(inside[to], 40)], [at(inside[from], 0), at(inside[from], 40)]],
+            [[at(outside[from], 40), at(inside[from], 40)], [at(outside[to], 40), at(inside[to], 40)]],
+            [[at(outside[to], 0), at(inside[to], 0)], [at(outside[from], 0), at(inside[from], 0)]],
+        ] {
+            model += &format!("[[patch]]\ndegree = [1, 1]\npoints = {points:?}\n");
+        }
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("tube.toml");
+    fs::write(&path, model).expect("a file");
+    let run = Command::new(env!("CARGO_BIN_EXE_palpate")).args(["budgets", "--tool"]).arg(path).output();
+    let run = run.expect("it starts");
+    let said = format!("{}{}", String::from_utf8_lossy(&run.stdout), String::from_utf8_lossy(&run.stderr));
+    println!("{said}");
+    assert!(run.status.success());
+    for tool in ["ball", "capsule", "box"] {
+        let figure = |name: &str| -> Option<u32> {
+            let line = said.lines().find_map(|line| line.strip_prefix(&format!("{tool}, {name}")));
+            line.and_then(|count| count.trim().parse().ok())
+        };
+        assert_eq!(figure("left out: patches with the part 16 mm in front"), Some(4), "{tool}");
+        // As far as docs/howto/tool.md has it.
+        assert!(figure("ticks until located").is_some_and(|ticks| ticks <= 450), "{tool}");
     }
 }
 

@@ -44,6 +44,21 @@ fn traces_on(board: Board, arguments: &[&str]) -> [Trace; 2] {
     [device, host]
 }
 
+/// The board's reports do not carry the count.
+#[test]
+fn the_contacts_that_a_board_released_are_counted() {
+    if !is_wanted("a contact released on the emulated board") {
+        return;
+    }
+    let Demo { options } = Demo::parse_from(["demo", "--max-force", "0.5"]);
+    let scene = options.scene().expect("the demo's scene");
+    let [mut board, host] = traces(&["demo", "--max-force", "0.5"]);
+    assert_eq!((board.contacts_lost, host.contacts_lost), (None, Some(1)));
+    let again = scene.host_loop().expect("good settings");
+    board.count_contacts_lost({ again }.as_mut(), scene.tool).expect("no frame is lost");
+    assert_eq!(board.contacts_lost, Some(1));
+}
+
 #[test]
 fn every_device_of_three_joints_touches_alike_on_host_and_board() {
     if !is_wanted("the other devices on the emulated board") {

@@ -10,20 +10,21 @@ use palpate_bake::NurbsPatch;
 /// The usual share of the fall that the slope promises (Armijo).
 const SUFFICIENT: f64 = 1e-4;
 /// Halvings after which a step no longer moves a double.
-const HALVINGS: usize = 50;
+const HALVINGS: u32 = 50;
 
 /// The direction of a step from the difference, the gradient and which parameters are held.
 type Direction = fn(&OraclePoint, DVec3, [f64; 2], [bool; 2]) -> [f64; 2];
 
 /// One step: the Hessian where it is positive definite, the first fundamental form where not; parameters that press
-/// outward are held; halved until the distance falls enough. `None` at a stationary point.
+/// outward are held; halved until the distance falls enough. `None` at a stationary point. With the evaluations spent on
+/// lengths.
 fn step(
     patch: &NurbsPatch,
     surface: &OraclePoint,
     at: [f64; 2],
     probe: DVec3,
     direction: Direction,
-) -> Option<[f64; 2]> {
+) -> (Option<[f64; 2]>, u32) {
     let difference = surface.point - probe;
     let gradient = [difference.dot(surface.tangent_u), difference.dot(surface.tangent_v)];
     let is_outward = |i: usize, change: f64| (at[i] <= 0.0 && change < 0.0) || (at[i] >= 1.0 && change > 0.0);
@@ -37,15 +38,15 @@ fn step(
     let slope = gradient[0] * along[0] + gradient[1] * along[1];
     let value = 0.5 * difference.length_squared();
     let mut length = 1.0;
-    for _ in 0..HALVINGS {
+    for tried in 1..=HALVINGS {
         let next = [0, 1].map(|i| (at[i] + length * along[i]).clamp(0.0, 1.0));
         let there = 0.5 * OraclePoint::evaluate(patch, next[0], next[1]).point.distance_squared(probe);
         if next != at && there <= value + SUFFICIENT * length * slope {
-            return Some(next);
+            return (Some(next), tried);
         }
         length *= 0.5;
     }
-    None
+    (None, HALVINGS)
 }
 
 /// Down the gradient, over the trace of the first fundamental form: the full step is no longer than Gauss and Newton's.
@@ -132,6 +133,11 @@ impl<'a> Baseline<'a> {
 
     /// One step from `at`, in the square, for a probe at rest.
     pub fn step(&self, at: [f64; 2], probe: DVec3) -> Advance {
+        self.counted_step(at, probe).0
+    }
+
+    /// The same, with the evaluations of the patch that it took.
+    pub fn counted_step(&self, at: [f64; 2], probe: DVec3) -> (Advance, u32) {
         let surface = OraclePoint::evaluate(self.patch, at[0], at[1]);
         let along: Option<Direction> = match self.method {
             Method::ProjectedNewton => Some(direction),
@@ -139,22 +145,24 @@ impl<'a> Baseline<'a> {
             _ => None,
         };
         if let Some(along) = along {
-            return step(self.patch, &surface, at, probe, along).map_or(Advance::Nowhere, Advance::To);
+            let (next, tried) = step(self.patch, &surface, at, probe, along);
+            return (next.map_or(Advance::Nowhere, Advance::To), 1 + tried);
         }
         let kinematics = match self.errors {
             Errors::MeasureNumbers => ErrorKinematics::measure_numbers(&surface, probe),
             Errors::Covariant => Some(ErrorKinematics::covariant(&surface, probe)),
         };
         let direction = kinematics.and_then(|kinematics| kinematics.newton_direction());
-        let Some(direction) = direction else { return Advance::Nowhere };
+        let Some(direction) = direction else { return (Advance::Nowhere, 1) };
         let next = [0, 1].map(|i| at[i] + self.gain * direction[i]);
         let inside = next.iter().all(|parameter| (0.0..=1.0).contains(parameter));
         let saturated = next.map(|parameter| parameter.clamp(0.0, 1.0));
-        match self.method {
+        let advance = match self.method {
             _ if next == at || (self.method == Method::SaturatedNewton && saturated == at) => Advance::Nowhere,
             Method::Newton if !inside => Advance::Out(next),
             _ => Advance::To(saturated),
-        }
+        };
+        (advance, 1)
     }
 }
 
