@@ -59,6 +59,11 @@ impl<'a> Axis<'a> {
                 let step =
                     [1.0, 2.0, 5.0, 10.0].map(|part| part * decade).into_iter().find(|step| *step >= wanted * 0.999);
                 let step = step.unwrap_or(10.0 * decade);
+                // Where that leaves fewer than three, the longest below it that does not.
+                let leaves_three = |step: &f64| (high / step + 1e-6).floor() - (low / step - 1e-6).ceil() >= 2.0;
+                let shorter = [5.0, 4.0, 2.0, 1.0, 0.5].map(|part| part * decade);
+                let step = [step].into_iter().chain(shorter.into_iter().filter(|shorter| *shorter < step));
+                let step = step.clone().find(leaves_three).or_else(|| step.clone().next()).unwrap_or(decade);
                 let digits = (-(step.log10() + 1e-9).floor()).max(0.0) as usize;
                 let first = (low / step - 1e-6).ceil() as i64;
                 (first..)
@@ -154,6 +159,19 @@ fn key_lines(keys: &[Key<'_>], width: f64) -> Vec<Vec<(f64, usize)>> {
     lines
 }
 
+/// The names of several faces, a line for as many as fit a width, px.
+fn wrapped(names: &str, width: f64) -> Vec<String> {
+    const BETWEEN: &str = " | ";
+    let mut lines: Vec<String> = Vec::new();
+    for name in names.split(BETWEEN) {
+        match lines.last_mut().filter(|line| width_of(line) + width_of(BETWEEN) + width_of(name) <= width) {
+            Some(line) => *line += &format!("{BETWEEN}{name}"),
+            None => lines.push(name.to_owned()),
+        }
+    }
+    lines
+}
+
 /// Title and names of curves; the part below them.
 fn head(svg: &mut Svg, area: Area, title: &str, keys: &[Key<'_>]) -> Area {
     const SIDE: f64 = 10.0;
@@ -198,7 +216,8 @@ impl Axes<'_> {
         let top = rest.y + if self.y.label.is_empty() { 6.0 } else { LINE + 6.0 };
         let bottom = rest.y + rest.height - if self.x.label.is_empty() { LINE } else { 2.0 * LINE } - 4.0;
         let upward = self.y.ticks(bottom - top, false);
-        let widest = upward.iter().map(|(_, name)| width_of(name)).fold(0.0, f64::max).min(0.4 * area.width);
+        let lines = upward.iter().flat_map(|(_, name)| wrapped(name, 0.4 * area.width));
+        let widest = lines.map(|line| width_of(&line)).fold(0.0, f64::max).min(0.4 * area.width);
         let left = area.x + 10.0 + widest + 8.0;
         let right = area.x + area.width - 22.0;
         let inner = Area { x: left, y: top, width: right - left, height: bottom - top };
@@ -213,7 +232,12 @@ impl Axes<'_> {
         for (value, name) in &upward {
             let y = chart.up(*value);
             grid.add_line([(left, y), (right, y)]);
-            chart.svg.words((left - 8.0, y), Anchor::End, Ink::Text, &cut(name, 0.4 * area.width));
+            let lines = wrapped(name, 0.4 * area.width);
+            let first = y - 0.5 * (lines.len() - 1) as f64 * FONT;
+            for (number, line) in lines.iter().enumerate() {
+                let place = (left - 8.0, first + number as f64 * FONT);
+                chart.svg.words(place, Anchor::End, Ink::Text, &cut(line, 0.4 * area.width));
+            }
         }
         for (value, name) in self.x.ticks(inner.width, true) {
             let x = chart.across(value);
@@ -357,8 +381,17 @@ mod tests {
             |axis: Axis<'_>, length| axis.ticks(length, true).into_iter().map(|tick| tick.1).collect::<Vec<_>>();
         assert_eq!(names(Axis::linear("", [-0.1, 1.02]), 300.0), ["0.0", "0.5", "1.0"]);
         assert_eq!(names(Axis::linear("", [-30.0, 30.0]), 500.0), ["−30", "−20", "−10", "0", "10", "20", "30"]);
+        // Three at least, on a phone too.
+        assert_eq!(names(Axis::linear("", [-45.0, 45.0]), 110.0), ["−40", "0", "40"]);
+        assert_eq!(names(Axis::linear("", [0.0, 0.19]), 110.0), ["0.00", "0.05", "0.10", "0.15"]);
         assert_eq!(names(Axis::log("", [20.0, 1_000.0]), 800.0), ["20", "50", "100", "200", "500", "1000"]);
         assert_eq!(names(Axis::log("", [1e-6, 100.0]), 200.0), ["10⁻⁶", "0.001", "1"]);
+    }
+
+    #[test]
+    fn names_that_do_not_fit_a_line_go_on_in_the_next() {
+        assert_eq!(wrapped("side_y0 | side_x60 | dome", 150.0), ["side_y0 | side_x60", "dome"]);
+        assert_eq!(wrapped("side_y0 | side_x60 | dome", 60.0), ["side_y0", "side_x60", "dome"]);
     }
 
     #[test]

@@ -6,14 +6,16 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
-const STYLE: &str = ":root{color-scheme:light dark;--ink:#1b1f24;--quiet:#57606a;--line:#d8dee4;--paper:#fff}\
-@media(prefers-color-scheme:dark){:root{--ink:#e6edf3;--quiet:#9198a1;--line:#30363d;--paper:#0d1117}a{color:#58a6ff}}\
+const STYLE: &str = ":root{color-scheme:light dark;--ink:#1b1f24;--quiet:#57606a;--line:#d8dee4;--paper:#fff;--shade:#8c959f}\
+@media(prefers-color-scheme:dark){:root{--ink:#e6edf3;--quiet:#9198a1;--line:#30363d;--paper:#0d1117;--shade:#6e7681}a{color:#58a6ff}}\
 body{font:16px/1.5 system-ui,sans-serif;color:var(--ink);background:var(--paper);max-width:62rem;margin:2rem auto;padding:0 1rem}\
 h1{margin:0}h2{margin:2.5rem 0 .5rem;font-size:1.2rem}p{margin:.3rem 0}.note{color:var(--quiet)}\
 code{overflow-wrap:anywhere;font-size:.9em}table{border-collapse:collapse;margin:1rem 0}\
 td,th{padding:.2rem 1rem .2rem 0;border-bottom:1px solid var(--line);text-align:left;vertical-align:top}\
 .figures td{overflow-wrap:anywhere}.figures td:first-child{color:var(--quiet);overflow-wrap:normal}\
-.scroll{overflow-x:auto;font-size:.85rem}.scroll td,.scroll th{white-space:nowrap;text-align:right;\
+.scroll{overflow-x:auto;font-size:.85rem;\
+background:linear-gradient(to left,var(--paper) 1rem,transparent) right/3rem 100% no-repeat local,\
+linear-gradient(to left,var(--shade),transparent) right/1.5rem 100% no-repeat scroll}.scroll td,.scroll th{white-space:nowrap;text-align:right;\
 font-variant-numeric:tabular-nums}.scroll th{white-space:pre-line;vertical-align:bottom;font-weight:600}\
 .scroll :is(td,th):first-child{text-align:left;position:sticky;left:0;background:var(--paper)}\
 svg{display:block;max-width:100%;height:auto}.narrow{display:none}";
