@@ -4,13 +4,14 @@
 //! [`output_length`], words through [`text`] and [`text_length`]; all four are valid until the next call.
 
 use alloc::boxed::Box;
-use alloc::string::String;
+use alloc::string::{String, ToString as _};
 
 use alloc::vec::Vec;
 use core::fmt::Write as _;
 use core::mem;
 use palpate::body::Feature;
 use palpate::math::vec3;
+use palpate::pair::{Core, Tool};
 use palpate::patch::{Patch as _, SplinePatch};
 use spin::Mutex;
 
@@ -173,6 +174,38 @@ pub extern "C" fn hold_device(length: usize, label: usize) -> i32 {
         }
         Err(error) => state.say(&error),
     }
+}
+
+/// Takes a tool in the hand: a box of half lengths, of which any may be 0, with a ball of some radius rolled over it, metres;
+/// with a radius of 0 the point. 0, or −1 and why not.
+#[unsafe(no_mangle)]
+pub extern "C" fn take_tool(x: f32, y: f32, z: f32, radius: f32) -> i32 {
+    let mut state = STATE.lock();
+    let Some(stage) = &mut state.stage else { return state.say("there is no body") };
+    let core = match [x, y, z] {
+        [0.0, 0.0, 0.0] => Core::Point,
+        [0.0, 0.0, half] => Core::Segment { half },
+        half => Core::Box { half },
+    };
+    let tool = (radius != 0.0).then(|| Tool::new(core, radius)).transpose().map_err(|error| error.to_string());
+    match tool.and_then(|tool| stage.take_tool(tool)) {
+        Ok(()) => 0,
+        Err(error) => state.say(&error),
+    }
+}
+
+/// Turns the tool towards an orientation, a quaternion, in the next ticks.
+#[unsafe(no_mangle)]
+pub extern "C" fn turn_tool(x: f32, y: f32, z: f32, w: f32) {
+    if let Some(stage) = &mut STATE.lock().stage {
+        stage.turn_tool([x, y, z, w]);
+    }
+}
+
+/// The tool and its contacts, see [`Stage::tool`].
+#[unsafe(no_mangle)]
+pub extern "C" fn tool() -> usize {
+    STATE.lock().write(Stage::tool)
 }
 
 /// The workspace margin of the held device, 0 to 1: 1 well inside, and the force is multiplied by it.

@@ -1,4 +1,5 @@
-//! The surface that the loop renders: a body, one that gives way, or one patch. None adds words to the state.
+//! The surface that the loop renders: a body, one that gives way, one under a tool with a shape, or one patch. None adds
+//! words to the state.
 
 use alloc::boxed::Box;
 use alloc::string::{String, ToString as _};
@@ -7,7 +8,8 @@ use alloc::vec::Vec;
 use core::sync::atomic::{AtomicU32, Ordering::Relaxed};
 use palpate::body::{Body, BodyBuffer, BodyWitness, Edge, Effort, Face, Feature, FileHead, Soft, TableCursor};
 use palpate::field::{Bump, FieldBounds, MAX_MODES, Modal, Mode, Quadratic};
-use palpate::math::{Vec3, sqrt};
+use palpate::math::{Vec3, inverse_sqrt, sqrt};
+use palpate::pair::{HeldTool, ToolSurface};
 use palpate::patch::SplinePatch;
 use palpate::render::Penalty;
 use palpate::servo::{BakedTables, PatchWitness, SoftBody, SoftContact, Surface, ToolContact, Touched, Tracked};
@@ -20,6 +22,8 @@ pub enum Felt {
     Body(Body<'static>),
     /// The same with modes.
     Soft(&'static Yielding),
+    /// A body under a tool with a shape.
+    Tool(ToolSurface<'static>),
     /// A patch alone.
     Patch(SplinePatch<'static>),
 }
@@ -35,11 +39,14 @@ pub struct FeltWitness {
 
 /// State of a surface between ticks.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(clippy::large_enum_variant, reason = "a witness is `Copy`")]
 pub enum Kept {
     /// On a body.
     Body(BodyWitness),
     /// On one that gives way.
     Soft(SoftContact),
+    /// Of a tool with a shape.
+    Tool(HeldTool),
     /// On a patch.
     Patch(PatchWitness),
 }
@@ -51,6 +58,7 @@ impl Surface for Felt {
         let kept = match self {
             Self::Body(body) => Kept::Body(body.rest()),
             Self::Soft(soft) => Kept::Soft(soft.body.rest()),
+            Self::Tool(tool) => Kept::Tool(tool.rest()),
             Self::Patch(patch) => Kept::Patch(patch.rest()),
         };
         FeltWitness { kept, spent: 0 }
@@ -72,6 +80,11 @@ impl Surface for Felt {
                 *spent = 0;
                 soft.body.follow(controller, contact, probe, period)
             }
+            (Self::Tool(tool), Kept::Tool(held)) => {
+                let touched = tool.follow(controller, held, probe, period);
+                *spent = held.proxy().evaluations().min(255) as u8;
+                touched
+            }
             (Self::Patch(patch), Kept::Patch(witness)) => {
                 *spent = 1;
                 patch.follow(controller, witness, probe, period)
@@ -84,6 +97,7 @@ impl Surface for Felt {
     fn is_for(&self, period: f32) -> bool {
         match self {
             Self::Soft(soft) => soft.body.is_for(period),
+            Self::Tool(tool) => tool.is_for(period),
             Self::Body(_) | Self::Patch(_) => true,
         }
     }
@@ -92,6 +106,7 @@ impl Surface for Felt {
         match (self, &mut witness.kept) {
             (Self::Body(body), Kept::Body(witness)) => body.push(witness, wall, touch),
             (Self::Soft(soft), Kept::Soft(contact)) => soft.body.push(contact, wall, touch),
+            (Self::Tool(tool), Kept::Tool(held)) => tool.push(held, wall, touch),
             (Self::Patch(patch), Kept::Patch(witness)) => patch.push(witness, wall, touch),
             _ => 0.0,
         }
@@ -101,6 +116,7 @@ impl Surface for Felt {
         match (self, &mut witness.kept) {
             (Self::Body(body), Kept::Body(witness)) => body.release(witness),
             (Self::Soft(soft), Kept::Soft(contact)) => soft.body.release(contact),
+            (Self::Tool(tool), Kept::Tool(held)) => tool.release(held),
             (Self::Patch(patch), Kept::Patch(witness)) => patch.release(witness),
             _ => {}
         }
@@ -110,8 +126,15 @@ impl Surface for Felt {
         match (self, &witness.kept) {
             (Self::Body(body), Kept::Body(witness)) => Surface::is_too_deep(body, witness),
             (Self::Soft(soft), Kept::Soft(contact)) => soft.body.is_too_deep(contact),
+            (Self::Tool(tool), Kept::Tool(held)) => tool.is_too_deep(held),
             (Self::Patch(patch), Kept::Patch(witness)) => Surface::is_too_deep(patch, witness),
             _ => false,
+        }
+    }
+
+    fn orient(&self, witness: &mut FeltWitness, orientation: [f32; 4]) {
+        if let (Self::Tool(tool), Kept::Tool(held)) = (self, &mut witness.kept) {
+            tool.orient(held, orientation);
         }
     }
 }
@@ -121,6 +144,7 @@ impl BakedTables for Felt {
         match self {
             Self::Body(body) => body.table_word(cursor),
             Self::Soft(soft) => soft.body.table_word(cursor),
+            Self::Tool(tool) => tool.table_word(cursor),
             Self::Patch(patch) => BakedTables::table_word(patch, cursor),
         }
     }
@@ -129,6 +153,7 @@ impl BakedTables for Felt {
         match self {
             Self::Body(body) => BakedTables::table_records(body),
             Self::Soft(soft) => soft.body.table_records(),
+            Self::Tool(tool) => tool.table_records(),
             Self::Patch(patch) => BakedTables::table_records(patch),
         }
     }
@@ -137,6 +162,7 @@ impl BakedTables for Felt {
         match self {
             Self::Body(body) => body.baked_crc(),
             Self::Soft(soft) => soft.body.baked_crc(),
+            Self::Tool(tool) => tool.baked_crc(),
             Self::Patch(patch) => BakedTables::baked_crc(patch),
         }
     }
@@ -147,6 +173,7 @@ impl Tracked for FeltWitness {
         match &self.kept {
             Kept::Body(body) => body.witness(),
             Kept::Soft(contact) => contact.witness(),
+            Kept::Tool(held) => held.witness(),
             Kept::Patch(patch) => patch.witness(),
         }
     }
@@ -155,6 +182,7 @@ impl Tracked for FeltWitness {
         match &self.kept {
             Kept::Body(body) => body.gap(),
             Kept::Soft(contact) => contact.gap(),
+            Kept::Tool(held) => held.gap(),
             Kept::Patch(patch) => patch.gap(),
         }
     }
@@ -163,6 +191,7 @@ impl Tracked for FeltWitness {
         match &self.kept {
             Kept::Body(body) => body.contact(),
             Kept::Soft(contact) => contact.contact(),
+            Kept::Tool(held) => held.contact(),
             Kept::Patch(patch) => patch.contact(),
         }
     }
@@ -171,6 +200,7 @@ impl Tracked for FeltWitness {
         match &self.kept {
             Kept::Body(body) => body.feature(),
             Kept::Soft(contact) => contact.feature(),
+            Kept::Tool(held) => held.feature(),
             Kept::Patch(patch) => patch.feature(),
         }
     }
@@ -179,6 +209,7 @@ impl Tracked for FeltWitness {
         match &self.kept {
             Kept::Body(body) => body.for_each_word(take),
             Kept::Soft(contact) => contact.for_each_word(take),
+            Kept::Tool(held) => held.for_each_word(take),
             Kept::Patch(patch) => patch.for_each_word(take),
         }
     }
@@ -190,6 +221,7 @@ impl FeltWitness {
         match (&self.kept, felt) {
             (Kept::Body(witness), _) => witness.normal,
             (Kept::Soft(contact), _) => contact.track().body.normal,
+            (Kept::Tool(held), _) => out_of(held),
             (Kept::Patch(witness), Felt::Patch(patch)) => witness.witness().normal(patch).unwrap_or(Vec3::ZERO),
             _ => Vec3::ZERO,
         }
@@ -199,7 +231,7 @@ impl FeltWitness {
     pub fn q(&self) -> [f32; MAX_MODES] {
         match &self.kept {
             Kept::Soft(contact) => *contact.track().q(),
-            Kept::Body(_) | Kept::Patch(_) => [0.0; MAX_MODES],
+            Kept::Body(_) | Kept::Tool(_) | Kept::Patch(_) => [0.0; MAX_MODES],
         }
     }
 
@@ -208,9 +240,21 @@ impl FeltWitness {
         match &self.kept {
             Kept::Body(witness) => witness.feature,
             Kept::Soft(contact) => contact.track().body.feature,
+            Kept::Tool(held) => Feature::Face(held.feature()),
             Kept::Patch(_) => Feature::Face(0),
         }
     }
+}
+
+/// Unit vector from the hand's tool to the drawn one, which is held outside; before contact from the body's point to the
+/// tool's. Zero without either.
+fn out_of(held: &HeldTool) -> Vec3 {
+    let away = match held.contact() {
+        Contact::Touching => -held.proxy().stretch(),
+        Contact::InFront | Contact::Behind => -held.proxy().difference(),
+    };
+    let squared = away.length_squared();
+    if squared > f32::MIN_POSITIVE { away * inverse_sqrt(squared) } else { Vec3::ZERO }
 }
 
 // A body that gives way, with modes that a reader may hold.

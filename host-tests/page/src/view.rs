@@ -109,6 +109,8 @@ impl Sighted for Felt {
         let (patch, field) = match self {
             Self::Patch(patch) => (Some(patch), None),
             Self::Body(body) => (patch_of(body, feature), None),
+            // No step of one patch is a step of a tool.
+            Self::Tool(_) => (None, None),
             Self::Soft(soft) => {
                 let soft = soft.body.soft();
                 (patch_of(soft.rest(), feature), Some(soft.field(&kept.q())))

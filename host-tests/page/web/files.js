@@ -13,6 +13,8 @@ const KINDS =
 export async function openFile(page, file) {
   const { name } = file;
   const refuse = (why) => (page.refuse(`${name}: ${why}`), false);
+  // What is opened is felt; the knob's panel shows neither it nor why not.
+  if (page.panel === "knob") page.turnTo("feel");
   if (!/\.(palp|toml|json|csv|step|stp)$/i.test(name)) return refuse(KINDS);
   if (!file.size) return refuse("the file is empty");
   if (/\.palp$/i.test(name)) return page.take(body(file, name));

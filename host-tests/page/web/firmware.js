@@ -86,6 +86,30 @@ export class Device {
     return file.length ? found : {};
   }
 
+  /** Takes a tool in the hand: half lengths of its core and its radius, metres; with a radius of 0 the tip. */
+  takeTool(half, radius) {
+    if (this.exports.take_tool(...half, radius) < 0) throw new Error(this.#text());
+  }
+
+  /** Turns it towards an orientation, a quaternion. */
+  turnTool(orientation) {
+    this.exports.turn_tool(...orientation);
+  }
+
+  /** The tool as it is drawn, held outside of the body, its orientation in the hand, and its contacts; null of a tip. */
+  tool() {
+    this.exports.tool();
+    const [x, y, z, ...rest] = this.#numbers();
+    if (x === undefined) return null;
+    const contact = (at) => ({ place: rest.slice(at, at + 3), force: rest.slice(at + 3, at + 6), gap: rest[at + 6] });
+    return {
+      position: [x, y, z],
+      orientation: rest.slice(0, 4),
+      hand: rest.slice(4, 8),
+      contacts: Array.from({ length: (rest.length - 8) / 7 }, (_, index) => contact(8 + 7 * index)),
+    };
+  }
+
   /** How far what is held is from the end of its workspace: 1 well inside, 0 there. */
   workspaceMargin() {
     return this.exports.workspace_margin();

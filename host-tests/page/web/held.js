@@ -37,8 +37,8 @@ export class Held {
       by("device").value = this.chosen.name;
       return false;
     }
-    page.loop.begin(page.body.device);
     page.choose();
+    page.tool.begin(page.body.device);
     return true;
   }
 

@@ -19,10 +19,16 @@ export class Loop {
   /** Begins on another device. */
   begin(device) {
     this.device = device;
-    this.place = this.room.unplace(this.room.front.clone().multiplyScalar(0.9));
-    device.restart(this.place);
+    this.lift();
     this.strolls = true;
     this.stands = false;
+  }
+
+  /** Puts the hand over the body. */
+  lift() {
+    const { front } = this.room;
+    this.place = this.room.unplace(front.clone().multiplyScalar(0.9 + this.pointer.reach(front)));
+    this.device.restart(this.place);
   }
 
   /** A reader has taken the stylus. */
@@ -63,7 +69,7 @@ export class Loop {
 
   // From wherever the stylus is to where it strolls.
   ease(seconds) {
-    const to = stroll(this.device, this.room, this.clock),
+    const to = stroll(this.device, this.room, this.clock, this.pointer.reach),
       share = 1 - Math.exp(-seconds / EASE);
     return this.place.map((coordinate, axis) => coordinate + (to[axis] - coordinate) * share);
   }

@@ -116,8 +116,8 @@ export class Marks {
     if (body !== this.shown.body) this.shown = { body };
   }
 
-  /** Shows a view of the loop. */
-  show(view, withRegion) {
+  /** Shows a view of the loop; a tool with a shape is drawn elsewhere. */
+  show(view, withRegion, isShaped = false) {
     const { room } = this;
     const probe = room.place(view.probe),
       point = room.place(view.point);
@@ -127,18 +127,21 @@ export class Marks {
     this.lean.lerp(this.leaning(probe, normal), 0.12).normalize();
     this.stylus.quaternion.setFromUnitVectors(UP, this.lean);
     this.ghost.position.copy(probe);
+    this.stylus.visible = this.ghost.visible = !isShaped;
     this.witness.position.copy(point);
     this.ring.position.copy(point).addScaledVector(normal, 0.002);
     this.ring.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), normal.lengthSq() > 0 ? normal : UP);
-    this.god.visible = touching;
+    this.god.visible = touching && !isShaped;
     this.god.position.copy(point).addScaledVector(normal, 0.012);
-    this.draw(this.gap, [probe, point]);
+    this.draw(this.gap, isShaped ? [] : [probe, point]);
     const held = view.held > 0 && touching;
     this.draw(this.anchor, held ? [point, room.place(view.anchor)] : []);
     this.anchor.material.opacity = view.slips ? 0.5 : 1;
     aim(this.normal, point, normal, normal.lengthSq() > 0 ? 0.16 : 0);
     const force = new Vector3(...view.force),
       newtons = force.length();
+    // It starts in the tool.
+    this.force.shaft.material.depthTest = !isShaped;
     aim(this.force, touching ? point : probe, force, Math.min(newtons * OF_A_NEWTON, 0.9));
     this.sheet.visible = withRegion;
   }
@@ -261,6 +264,7 @@ function arrow(color, radius) {
   group.shaft = new Mesh(new CylinderGeometry(radius, radius, 1, 16), material);
   group.head = new Mesh(new ConeGeometry(3 * radius, 8 * radius, 20), material);
   group.long = 8 * radius;
+  group.shaft.renderOrder = group.head.renderOrder = 1;
   group.add(group.shaft, group.head);
   return group;
 }

@@ -11,6 +11,7 @@ import { Errors, show } from "panel";
 import { Basin } from "basin";
 import { Held } from "held";
 import { Modes } from "modes";
+import { Tool } from "tool";
 import { Knob } from "knob";
 import { choices, number, pace, say } from "choices";
 import { verify } from "proof";
@@ -29,7 +30,10 @@ export class Page {
     this.pointer = new Pointer(this.room, {
       touched: () => this.loop.taken(),
       put: (place, far) => this.loop.put(place, far),
+      reach: (direction) => this.tool.reach(direction),
+      turned: (...pixels) => this.tool.turn(...pixels),
     });
+    this.tool = new Tool(this);
     this.loop = new Loop(this.room, this.pointer);
     this.player = new Player();
     this.modes = new Modes();
@@ -64,11 +68,13 @@ export class Page {
     this.modes.begin(device);
     this.pointer.begin();
     this.choose();
-    this.loop.begin(device);
+    this.tool.begin(device);
     if (!parts && !by("body").querySelector(`option[value="${CSS.escape(name)}"]`)) {
       by("body").add(new Option(`${title} (yours)`, name));
       this.opened.set(name, bytes);
     }
+    by("scene-name").hidden = !parts;
+    by("scene-name").textContent = parts ? title : "";
     by("body").value = parts ? "" : name;
     if (this.panel === "basin") this.beginBasin();
     return true;
@@ -159,7 +165,8 @@ export class Page {
     }
     else if (this.panel === "basin") this.basin.step();
     else {
-      this.errors.add(this.loop.advance(seconds), this.body.device.size);
+      const errors = this.loop.advance(seconds);
+      if (!this.tool.isShaped) this.errors.add(errors, this.body.device.size);
       this.view = this.body.device.view();
     }
     this.picture();
@@ -185,8 +192,10 @@ export class Page {
     marks.edge(kind === EDGE && !isPatch ? index : null, felt.device);
     const withRegion = by("regions").checked && this.panel === "feel";
     if (withRegion) marks.region(view.feature, felt.device);
-    marks.show(view, withRegion);
-    show(view, felt);
+    const isHeld = !this.live && !this.player.recording && this.panel !== "basin";
+    marks.show(view, withRegion, isHeld && this.tool.isShaped);
+    this.tool.show(this.room.place(view.probe), isHeld);
+    show(view, felt, isHeld && this.tool.isShaped);
     this.held.show(body.device);
     by("height").value = Math.round(100 * this.pointer.height);
     by("height").nextElementSibling.textContent = `${(1e3 * this.pointer.height * this.room.size).toFixed(1)} mm`;

@@ -25,7 +25,7 @@ function placeOf({ kind, index }, body) {
 }
 
 /** Shows a view of the loop. */
-export function show(view, body) {
+export function show(view, body, isShaped = false) {
   const millimetres = view.gap * 1e3,
     touching = view.contact === TOUCHING;
   set("gap", millimetres.toFixed(3).replace("-", "−"));
@@ -37,14 +37,15 @@ export function show(view, body) {
   set("mode", MODES[view.mode] ?? String(view.mode));
   const newtons = length(view.force);
   set("force", `${newtons.toFixed(2)} N${view.held ? (view.slips ? ", slipping" : ", sticking") : ""}`);
-  set("gain", view.gain.toFixed(4));
+  // A tool's step is of the pair.
+  set("gain", isShaped ? "–" : view.gain.toFixed(4));
   // Several bodies share a tick.
   set("evaluations", body.called ? "–" : String(view.evaluations));
   set("phase", view.fault ? `${PHASES[view.phase]} ${view.fault}` : PHASES[view.phase]);
-  by("caption").innerHTML = `<span>${caption(view, body, millimetres, newtons, touching)}</span>`;
+  by("caption").innerHTML = `<span>${caption(view, body, millimetres, newtons, touching, isShaped)}</span>`;
 }
 
-function caption(view, body, millimetres, newtons, touching) {
+function caption(view, body, millimetres, newtons, touching, isShaped) {
   const on = escape(nameOf(view.feature, body));
   if (touching) {
     return (
@@ -53,7 +54,7 @@ function caption(view, body, millimetres, newtons, touching) {
     );
   }
   if (view.contact === 1) return `<b class="away">${millimetres.toFixed(1)} mm</b> in front of ${on}`;
-  return `behind ${on}: nothing is felt before the stylus has been in front`;
+  return `behind ${on}: nothing is felt before the ${isShaped ? "tool" : "stylus"} has been in front`;
 }
 
 const escape = (text) => text.replace(/[&<>"]/g, (letter) => `&#${letter.charCodeAt(0)};`);

@@ -1,5 +1,5 @@
 // Where the reader wants the stylus: over the surface under the pointer at a height, or in a plane that faces the
-// reader.
+// reader; or how a tool with a shape is turned.
 
 import { Plane, Raycaster, Vector2, Vector3 } from "three";
 
@@ -17,8 +17,8 @@ const EASE = 0.07;
 const within = (height) => Math.min(Math.max(height, LOWEST), HIGHEST);
 
 export class Pointer {
-  constructor(room, { touched, put }) {
-    Object.assign(this, { room, touched, put });
+  constructor(room, { touched, put, reach, turned }) {
+    Object.assign(this, { room, touched, put, reach, turned });
     this.ray = new Raycaster();
     this.at = new Vector2();
     this.mode = "surface";
@@ -49,10 +49,20 @@ export class Pointer {
   }
 
   move(event) {
+    if (this.mode === "turn") return this.drag(event);
     const { left, top, width, height } = this.room.canvas.getBoundingClientRect();
     this.at.set((2 * (event.clientX - left)) / width - 1, 1 - (2 * (event.clientY - top)) / height);
     this.held = null;
     this.aim();
+    this.touched();
+  }
+
+  /** Turns the tool where it is. */
+  drag({ clientX, clientY, buttons }) {
+    const [x, y] = this.dragged ?? [clientX, clientY];
+    this.dragged = buttons & 1 ? [clientX, clientY] : null;
+    if (!this.dragged) return;
+    this.turned(clientX - x, clientY - y);
     this.touched();
   }
 
@@ -62,14 +72,17 @@ export class Pointer {
     if (this.fingers.size > 1) this.pressed = false;
     if (event.button !== 0 || this.fingers.size > 1) return;
     this.room.canvas.focus();
+    this.dragged = null;
     this.move(event);
+    if (this.mode === "turn") return;
     if (isFinger && this.foot) this.put(this.over(this.height), FAR);
     this.pressed = true;
   }
 
   /** At a height over the foot, in the room. */
   over(height) {
-    return this.foot.point.clone().addScaledVector(this.foot.normal, height);
+    const { point, normal } = this.foot;
+    return point.clone().addScaledVector(normal, height + this.reach(normal));
   }
 
   pinch({ pointerId, clientX, clientY }) {
@@ -101,7 +114,8 @@ export class Pointer {
       this.zoom(Math.exp((event.deltaY || event.deltaX) * 0.001));
       return;
     }
-    this.raise(-Math.sign(event.deltaY) * STEP);
+    if (this.mode === "turn") this.turned(0, 0, 8 * Math.sign(event.deltaY));
+    else this.raise(-Math.sign(event.deltaY) * STEP);
   }
 
   raise(by) {
@@ -130,7 +144,9 @@ export class Pointer {
 
   key(event) {
     const turn = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
-    if (turn) {
+    if (turn && this.mode === "turn") {
+      this.turned(8 * turn[0], -8 * turn[1]);
+    } else if (turn) {
       this.at.x += turn[0] * 0.02;
       this.at.y += turn[1] * 0.02;
       this.held = null;
@@ -172,7 +188,7 @@ export class Pointer {
     this.foot = null;
   }
 
-  /** From a place in the frame of the tables, metres, moves on over the surface, or in a plane that faces the reader. */
+  /** From a place in the frame of the tables, metres, moves on over the surface, or in a plane that faces the reader, or turns the tool there. */
   moveIn(mode, place) {
     this.mode = mode;
     this.height = within(this.height);

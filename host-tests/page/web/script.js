@@ -41,6 +41,16 @@ export class Script {
     return this.page.held.choose(name);
   }
 
+  /** A tool of the list in the hand; the empty name is the tip. */
+  takeTool(name) {
+    return this.page.tool.take(name);
+  }
+
+  /** The tool as it is drawn, and its contacts; null of a tip. */
+  tool() {
+    return this.page.body.device.tool();
+  }
+
   panel(name) {
     return this.page.turnTo(name);
   }

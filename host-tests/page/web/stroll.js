@@ -29,8 +29,8 @@ export class Presence {
 const HIGH = 0.13,
   DEEP = -0.115;
 
-/** Where the stylus is at a time, seconds; metres, in the frame of the tables. */
-export function stroll(device, room, time) {
+/** Where the stylus is at a time, seconds; metres, in the frame of the tables. `reach`: of its tool against a direction. */
+export function stroll(device, room, time, reach) {
   const around = room.front;
   const aside = new Vector3(1, 0.2, 0).addScaledVector(around, -around.x).normalize();
   const across = around.clone().cross(aside);
@@ -48,5 +48,5 @@ export function stroll(device, room, time) {
   // In the air for a while, then pressed in and out again.
   const beat = 0.5 - 0.5 * Math.cos(1.15 * time);
   const height = HIGH + (DEEP - HIGH) * beat ** 1.6;
-  return room.unplace(foot.addScaledVector(normal, height));
+  return room.unplace(foot.addScaledVector(normal, height + reach(normal)));
 }

@@ -15,6 +15,7 @@ mod looks;
 mod pictures;
 mod regions;
 mod replay;
+mod shaped;
 mod soft;
 mod stylus;
 mod tool;
