@@ -46,6 +46,8 @@ pub struct Knob {
     radius: f32,
     /// N·m.
     most: f32,
+    /// Whether that is the motor's torque at full duty, not the device's maximum force at the rim.
+    motor_limits: bool,
     /// N·m/s.
     let_go: f32,
     /// N·m/rad and N·m·s/rad.
@@ -158,7 +160,6 @@ impl Knob {
     ) -> Result<Self, (KnobError, Option<usize>)> {
         let radius = device.kinematics.radius_m;
         let (limit, full) = (device.max_force_n * radius, device.motors[0].torque_at_full_n_m.abs());
-        let most = if limit < full { limit } else { full };
         if feels.is_empty() || feels.len() > 255 {
             return Err((KnobError::Feels, None));
         }
@@ -169,7 +170,8 @@ impl Knob {
         let knob = Self {
             feels,
             radius,
-            most,
+            most: if limit <= full { limit } else { full },
+            motor_limits: full < limit,
             let_go,
             max_stiffness: device.max_stiffness_n_per_m * radius * radius,
             max_damping: device.max_damping_n_s_per_m * radius * radius,
@@ -204,7 +206,12 @@ impl Knob {
             return Err(KnobError::Damping { asked_n_m_s_per_rad: damping, limit_n_m_s_per_rad: self.max_damping });
         }
         if !bears_torque {
-            return Err(KnobError::Torque { asked_n_m: torque, limit_n_m: self.most });
+            let (asked_n_m, limit_n_m) = (torque, self.most);
+            return Err(if self.motor_limits {
+                KnobError::Motor { asked_n_m, limit_n_m }
+            } else {
+                KnobError::Torque { asked_n_m, limit_n_m }
+            });
         }
         let damped = feel.damping_n_m_s_per_rad;
         let needed = feel.needed_damping(DAMPING_PER_STIFFNESS_S);
@@ -572,15 +579,15 @@ mod tests {
         for (feel, says) in [
             (
                 Feel { detents: wave(0.25, 0.07), ..Feel::FREE },
-                "as stiff as 1759.29 mN·m/rad, and the motor's limit is 1600.00",
+                "as stiff as 1759.29 mN·m/rad, and the device's limit is 1600.00",
             ),
             (
                 Feel { detents: wave(2.5, 0.07), ..Feel::FREE },
-                "up to 70.00 mN·m, and the motor's limit is 56.00 mN·m: weaken",
+                "up to 70.00 mN·m, and the device's limit is 56.00 mN·m: weaken",
             ),
             (
                 Feel { damping_n_m_s_per_rad: 4e-3, ..Feel::FREE },
-                "damps by 4.00 mN·m·s/rad, and the motor's limit is 3.20",
+                "damps by 4.00 mN·m·s/rad, and the device's limit is 3.20",
             ),
         ] {
             let said = std::string::ToString::to_string(&refused(feel));
@@ -595,7 +602,10 @@ mod tests {
         let refused_by =
             |device| Knob::try_new(device, std::boxed::Box::leak(std::boxed::Box::new([feel])), LET_GO).err();
         assert_eq!(refused_by(&GIMBAL_KNOB), None);
-        assert_eq!(refused_by(&weaker), Some(KnobError::Torque { asked_n_m: 0.052, limit_n_m: 0.05 }));
+        let motor = KnobError::Motor { asked_n_m: 0.052, limit_n_m: 0.05 };
+        assert_eq!(refused_by(&weaker), Some(motor));
+        let said = std::string::ToString::to_string(&motor);
+        assert!(said.contains("up to 52.00 mN·m, and the motor's limit is 50.00 mN·m: weaken"), "{said}");
         assert_eq!(Knob::try_new(&GIMBAL_KNOB, &[], LET_GO), Err(KnobError::Feels));
         for (min_margin_m_per_rad, refusal) in
             [(0.016, None), (0.0161, Some(KnobError::Margin)), (f32::NAN, Some(KnobError::Margin))]

@@ -36,11 +36,11 @@ pub enum KnobError {
         /// Of the device.
         limit_n_m_s_per_rad: f32,
     },
-    /// They have more torque than the motor.
+    /// They have more torque than the device's maximum force at the dial's rim.
     Torque {
         /// The sum of the parts.
         asked_n_m: f32,
-        /// Of the motor.
+        /// Of the device.
         limit_n_m: f32,
     },
     /// The release rate is not positive and finite.
@@ -70,6 +70,13 @@ pub enum KnobError {
     /// The device's minimum margin is above 0.8 of the dial's radius, which is its margin everywhere: it would never have
     /// its whole force.
     Margin,
+    /// They have more torque than the motor at full duty, which is less than the device's maximum force allows.
+    Motor {
+        /// The sum of the parts.
+        asked_n_m: f32,
+        /// Of the motor.
+        limit_n_m: f32,
+    },
 }
 
 impl KnobError {
@@ -81,6 +88,7 @@ impl KnobError {
             Self::Stiffness { .. } => "a feel is stiffer than the device's maximum stiffness times its radius squared",
             Self::Damping { .. } => "a feel damps more than the device's maximum damping times its radius squared",
             Self::Torque { .. } => "a feel requests more torque than the device's maximum force times its radius",
+            Self::Motor { .. } => "a feel requests more torque than the motor's torque at full duty",
             Self::LetGo => "the torque released per second must be positive and finite",
             Self::Far { .. } => "a part would turn the dial by more than an eighth of a turn",
             Self::Late => "a stored feel is restored before the first tick only",
@@ -93,11 +101,12 @@ impl KnobError {
 
 impl fmt::Display for KnobError {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let whose = if matches!(self, Self::Motor { .. }) { "motor" } else { "device" };
         let mut beyond = |does: &str, [asked, limit]: [f32; 2], unit: &str| {
             let [asked, limit] = [1e3 * asked, 1e3 * limit];
             write!(
                 formatter,
-                "with it the feel {does} {asked:.2} {unit}, and the motor's limit is {limit:.2} {unit}: "
+                "with it the feel {does} {asked:.2} {unit}, and the {whose}'s limit is {limit:.2} {unit}: "
             )?;
             formatter.write_str("weaken it or another part, or take one away")
         };
@@ -109,7 +118,8 @@ impl fmt::Display for KnobError {
                 beyond("damps by", [asked, limit], "mN·m·s/rad")?;
                 formatter.write_str("; friction damps by its torque over its rate")
             }
-            Self::Torque { asked_n_m: asked, limit_n_m: limit } => beyond("has up to", [asked, limit], "mN·m"),
+            Self::Torque { asked_n_m: asked, limit_n_m: limit }
+            | Self::Motor { asked_n_m: asked, limit_n_m: limit } => beyond("has up to", [asked, limit], "mN·m"),
             Self::Far { asked_rad: asked } => write!(
                 formatter,
                 "it would turn the dial by {asked:.2} rad ({:.0}°), and the limit is an eighth of a turn, \
@@ -150,7 +160,8 @@ impl Sentence {
             KnobError::Damping { asked_n_m_s_per_rad: asked, limit_n_m_s_per_rad: limit } => {
                 feel.with_both(asked, ", maximum ", limit, " mN·m·s/rad")
             }
-            KnobError::Torque { asked_n_m: asked, limit_n_m: limit } => {
+            KnobError::Torque { asked_n_m: asked, limit_n_m: limit }
+            | KnobError::Motor { asked_n_m: asked, limit_n_m: limit } => {
                 feel.with_both(asked, ", maximum ", limit, " mN·m")
             }
             KnobError::Undamped { asked_n_m_s_per_rad: asked, needed_n_m_s_per_rad: needed } => {

@@ -189,7 +189,8 @@ enum {
     PALPATE_TOOL_ROTATION = 114,     /**< An orientation that is no quaternion of length 1. */
     PALPATE_WRIST_NUMBERS = 115,     /**< An axis not of length 1 or along the one before, or another number that no wrist has. */
     PALPATE_WRIST_RANGE = 116,       /**< An axis of the wrist is out of its range. */
-    PALPATE_WRIST_JUMP = 117         /**< An axis of the wrist has jumped. */
+    PALPATE_WRIST_JUMP = 117,        /**< An axis of the wrist has jumped. */
+    PALPATE_KNOB_MOTOR = 118         /**< All parts: more torque than palpate_joint::torque_at_full, which is the lesser limit. */
 };
 
 /** Returns a status in a sentence, a static string; "unknown" of a code that is none. */
@@ -627,7 +628,7 @@ enum {
 /** A number that was refused, beside its limit: N·m/rad, N·m·s/rad, N·m or rad, by the status. */
 typedef struct palpate_beyond {
     float asked; /**< The sum of the parts, how far the dial would be turned, or the damping everywhere. */
-    float limit; /**< Of the motor, an eighth of a turn, or the damping that is needed everywhere. Both are 0 where the status needs no number. */
+    float limit; /**< Of device or motor, an eighth of a turn, or the damping that is needed everywhere. Both are 0 where the status needs no number. */
 } palpate_beyond;
 
 /** A dial after a tick. */
@@ -1111,7 +1112,7 @@ palpate_status palpate_servo_start_dial_protected(palpate_servo *servo, size_t s
  * @param part  which, such as #PALPATE_FEEL_DETENTS
  * @param feel  holds the part; nothing else of it is looked at
  * @param beyond the number that was refused, or NULL; written on a refusal of the part only
- * @return #PALPATE_OK, #PALPATE_OUT_OF_RANGE of the part, or #PALPATE_KNOB_NONE to #PALPATE_KNOB_UNDAMPED.
+ * @return #PALPATE_OK, #PALPATE_OUT_OF_RANGE of the part, #PALPATE_KNOB_NONE to #PALPATE_KNOB_UNDAMPED, or #PALPATE_KNOB_MOTOR.
  */
 palpate_status palpate_servo_set_feel(palpate_servo *servo, uint32_t part, const palpate_feel *feel,
                                       palpate_beyond *beyond);

@@ -118,7 +118,9 @@ impl BeyondNumbers {
             KnobError::Damping { asked_n_m_s_per_rad, limit_n_m_s_per_rad } => {
                 (asked_n_m_s_per_rad, limit_n_m_s_per_rad)
             }
-            KnobError::Torque { asked_n_m, limit_n_m } => (asked_n_m, limit_n_m),
+            KnobError::Torque { asked_n_m, limit_n_m } | KnobError::Motor { asked_n_m, limit_n_m } => {
+                (asked_n_m, limit_n_m)
+            }
             KnobError::Far { asked_rad } => (asked_rad, MAX_RETURN_RAD),
             KnobError::Undamped { asked_n_m_s_per_rad, needed_n_m_s_per_rad } => {
                 (asked_n_m_s_per_rad, needed_n_m_s_per_rad)

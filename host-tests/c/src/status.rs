@@ -99,6 +99,7 @@ pub enum Status {
     WristNumbers = 115,
     WristRange = 116,
     WristJump = 117,
+    KnobMotor = 118,
 }
 
 impl Status {
@@ -180,6 +181,7 @@ impl Status {
             Self::KnobMaxStiffness => c"the feel is stiffer than max_stiffness times radius squared: lower a stiffness or a torque, or widen a pitch",
             Self::KnobMaxDamping => c"the feel damps more than max_damping times radius squared: lower damping or friction",
             Self::KnobMaxTorque => c"the feel's torques add up to more than max_force times radius: lower one",
+            Self::KnobMotor => c"the feel's torques add up to more than the motor's torque_at_full: lower one",
             Self::KnobReleaseRate => c"the dial's release rate must be positive and finite",
             Self::KnobFar => c"the dial is more than an eighth of a turn from there: turn it there first, or give a nearer position",
             Self::KnobMargin => c"min_margin of a dial must be at most 0.8 of its radius, or its force would never be whole",
@@ -201,7 +203,7 @@ impl Status {
         }
     }
 
-    const ALL: [Self; 88] = [
+    const ALL: [Self; 89] = [
         Self::Ok,
         Self::Null,
         Self::Misaligned,
@@ -290,6 +292,7 @@ impl Status {
         Self::WristNumbers,
         Self::WristRange,
         Self::WristJump,
+        Self::KnobMotor,
     ];
 }
 
@@ -447,6 +450,7 @@ impl From<KnobError> for Status {
             KnobError::Stiffness { .. } => Self::KnobMaxStiffness,
             KnobError::Damping { .. } => Self::KnobMaxDamping,
             KnobError::Torque { .. } => Self::KnobMaxTorque,
+            KnobError::Motor { .. } => Self::KnobMotor,
             KnobError::LetGo => Self::KnobReleaseRate,
             KnobError::Far { .. } => Self::KnobFar,
             KnobError::Undamped { .. } => Self::KnobUndamped,

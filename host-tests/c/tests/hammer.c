@@ -498,6 +498,23 @@ static void turn(void)
     good("where it is", palpate_servo_dial(&dial_servo, &turned));
 }
 
+/* Either limit of the torque has its status and its number. */
+static void too_much_torque(void)
+{
+    static const struct { float full; palpate_status expected; float limit; } of[] = {
+        {-0.06f, PALPATE_KNOB_MOTOR, 0.06f}, {1, PALPATE_KNOB_MAX_TORQUE, 5 * 0.02f}};
+    const palpate_feel much = {.spring = {0.01f, 0, 0.5f}}, none = {.damping = 1e-4f};
+    for (size_t i = 0; i < sizeof of / sizeof of[0]; i++) {
+        palpate_device one = motor;
+        palpate_beyond beyond = {0, 0};
+        one.joints[0].torque_at_full = of[i].full;
+        good("a dial", palpate_servo_start_dial(&dial_servo, sizeof dial_servo, &dial, &one, &none, &settings, 0));
+        palpate_status status = palpate_servo_set_feel(&dial_servo, PALPATE_FEEL_SPRING, &much, &beyond);
+        if (status != of[i].expected || beyond.asked != 0.5f || fabsf(beyond.limit - of[i].limit) > 1e-8f)
+            stop("another limit of the torque", status);
+    }
+}
+
 static palpate_status bad_dial(void)
 {
     /* Each part spoiled, and what of the whole is too much. */
@@ -779,6 +796,7 @@ int main(int count, char **arguments)
     const palpate_joint shaft = {6.2831853f / 4000, 0, 0.06f, 0, -INFINITY, INFINITY, {0, 0, 0, 0, 0, 0}};
     motor = device, motor.joints[0] = shaft, motor.min_margin = 0.01f, motor.max_stiffness = 4000,
     motor.max_joint_rate = 120;
+    too_much_torque();
     turn();
     hold();
     good("receiver", palpate_receiver_start(&receiver, sizeof receiver));

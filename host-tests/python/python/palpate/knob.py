@@ -14,7 +14,7 @@ class Knob:
 
     Its feel is a sum of parts, each set by a method. The first one changes a copy of the active feel, so start with
     `free` and `damping`: 0.0007 s times the stiffness of all parts, or the dial would ring once it is let go of. No change
-    steps the torque: the old one ramps down. Parts beyond the motor's limits, or too stiff for the damping, raise
+    steps the torque: the old one ramps down. Parts beyond the device's limits, or too stiff for the damping, raise
     SettingsError, which names the part, the sum that it asks for, the limit and the remedy, and change nothing. Any other
     failure raises LinkError.
 
@@ -30,7 +30,7 @@ class Knob:
     >>> knob.spring(stiffness=0.1, max_torque=0.04)
     Traceback (most recent call last):
     ...
-    palpate.SettingsError: spring was refused by the device: with it the feel has up to 60.00 mN·m, and the motor's limit is 56.00 mN·m: weaken it or another part, or take one away
+    palpate.SettingsError: spring was refused by the device: with it the feel has up to 60.00 mN·m, and the device's limit is 56.00 mN·m: weaken it or another part, or take one away
     """
 
     __slots__ = ("_native",)

@@ -109,6 +109,7 @@ fn in_words(refused: Result<(), KnobError>) -> &'static str {
         Err(KnobError::Stiffness { .. }) => "the feel is stiffer than max_stiffness",
         Err(KnobError::Damping { .. }) => "the feel damps more than max_damping",
         Err(KnobError::Torque { .. }) => "the feel's torques add up to more than max_force",
+        Err(KnobError::Motor { .. }) => "the feel's torques add up to more than the motor's torque_at_full",
         Err(KnobError::Far { .. }) => "the dial is more than an eighth of a turn from there",
         Err(KnobError::Undamped { .. }) => "the feel is too stiff for its damping",
         Err(other) => panic!("{other}"),
@@ -120,7 +121,10 @@ fn beyond(refused: Result<(), KnobError>) -> [f32; 2] {
     match refused {
         Err(KnobError::Stiffness { asked_n_m_per_rad: asked, limit_n_m_per_rad: limit })
         | Err(KnobError::Damping { asked_n_m_s_per_rad: asked, limit_n_m_s_per_rad: limit })
-        | Err(KnobError::Torque { asked_n_m: asked, limit_n_m: limit })
+        | Err(
+            KnobError::Torque { asked_n_m: asked, limit_n_m: limit }
+            | KnobError::Motor { asked_n_m: asked, limit_n_m: limit },
+        )
         | Err(KnobError::Undamped { asked_n_m_s_per_rad: asked, needed_n_m_s_per_rad: limit }) => [asked, limit],
         Err(KnobError::Far { asked_rad }) => [asked_rad, std::f32::consts::FRAC_PI_4],
         _ => [0.0; 2],

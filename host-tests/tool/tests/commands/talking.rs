@@ -122,7 +122,7 @@ fn a_knob_says_what_became_of_its_feel() {
         ("keep-feel\n", "keep-feel was refused by the device: no feel was set since the last reset; set one first"),
         (
             "spring 17 31.25 0\n",
-            "spring was refused by the device: with it the feel has up to 61.25 mN·m, and the motor's limit is 56.00 mN·m: \
+            "spring was refused by the device: with it the feel has up to 61.25 mN·m, and the device's limit is 56.00 mN·m: \
              weaken it or another part, or take one away",
         ),
     ] {
