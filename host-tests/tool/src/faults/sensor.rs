@@ -65,7 +65,7 @@ pub(super) const TABLE: &[Failure] = &[
         [
             "sensor",
             "a reading jumps",
-            "faster than a hand, three times",
+            "faster than a hand, three times; without `FrameBridge`, as in C, at once as fault 4",
             "sensors_that_lie_or_fall_silent_are_faults_and_the_motors_are_off",
         ],
         0.75,
