@@ -120,13 +120,15 @@ enum {
     PALPATE_FILE_BODY = 26,                /**< The body is not one. */
     PALPATE_FILE_TABLES = 27,              /**< The tables are not those that were baked. */
     PALPATE_DEVICE_ENCODER = 32,           /**< Radians a count zero or not finite, or a zero not finite. */
-    PALPATE_DEVICE_MOTOR = 33,             /**< Torque zero, not finite or above 200 N·m, or no feed of a motor. */
+    PALPATE_DEVICE_MOTOR = 33,             /**< Torque zero, not finite or above 200 N·m; or a feed without positive supply
+                                                and resistance, or with a back_emf_share outside 0 to 1. */
     PALPATE_DEVICE_FRICTION = 34,          /**< Dry friction negative, not finite or above its motor's torque. */
     PALPATE_DEVICE_RANGE = 35,             /**< A least angle not below the greatest, an angle beyond two turns (20 of an only
                                                 joint), or no whole counts a turn. */
     PALPATE_DEVICE_LIMIT = 36,             /**< A limit of the whole device not positive and finite, a margin above 10 m/rad, a
                                                 force above 1,000 N. */
-    PALPATE_DEVICE_MECHANISM = 37,         /**< A length or direction of the mechanism that no device has. */
+    PALPATE_DEVICE_MECHANISM = 37,         /**< A length not 0.001 to 2 m, an offset beyond 2 m, a side not 1 or -1, a direction
+                                                not of length 1. */
     PALPATE_DEVICE_CENTRE = 38,            /**< The workspace's centre out of the mechanism's reach. */
     PALPATE_DEVICE_MASS = 39,              /**< A mass of the mechanism negative or not finite. */
     PALPATE_DEVICE_WEIGHT = 40,            /**< Links heavier than a motor holds, under protection for long. */
@@ -142,8 +144,9 @@ enum {
     PALPATE_SETTINGS_SAFE_DAMPING = 57,    /**< Safe damping not between 0 and the device's greatest. */
     PALPATE_SETTINGS_LINK_TIMEOUT = 58,    /**< Timeout not positive. */
     PALPATE_SETTINGS_TEXTURE = 59,         /**< No texture was given, or its share is not between 0 and 1. */
-    PALPATE_SETTINGS_COUPLING = 60,        /**< The tool is too light for coupling, surface and rate. */
-    PALPATE_SETTINGS_PASSIVITY = 61,       /**< A number of passivity control negative or not finite. */
+    PALPATE_SETTINGS_COUPLING = 60,        /**< The virtual tool too light: not stiffness + coupling_stiffness < 2 * coupling_mass *
+                                                rate², coupling_stiffness not positive, or coupling_damping negative. */
+    PALPATE_SETTINGS_PASSIVITY = 61,       /**< A number of passivity control negative or not finite, or its resolution 0. */
     PALPATE_SETTINGS_EASE = 62,            /**< Easing's onset negative or not finite, or its change not positive. */
     PALPATE_PROTECTION_CONTINUOUS = 64,    /**< A motor's continuous torque not positive and finite. */
     PALPATE_PROTECTION_TIME_CONSTANT = 65, /**< A time constant not between 100 and 2,400,000 ticks, or above ten minutes. */
@@ -152,7 +155,7 @@ enum {
     PALPATE_PROTECTION_INERTIA = 68,       /**< An inertia not positive and finite. */
     PALPATE_HOMING_ANGLE = 72,             /**< A reference angle not finite. */
     PALPATE_HOMING_STILL = 73,             /**< No tick to hold still for. */
-    PALPATE_HOMING_STOP = 74,              /**< A search for a stop that makes no sense. */
+    PALPATE_HOMING_STOP = 74,              /**< A stop's speed 0, its torque, clearance or travel not positive, or one not finite. */
     PALPATE_HOMING_TIMEOUT = 75,           /**< No more time than it is to hold still. */
     PALPATE_HOMING_STARTED = 76,           /**< The loop has ticked already. */
     PALPATE_SOFT_MODES = 80,               /**< No modes, or more than #PALPATE_MAX_MODES. */
@@ -456,8 +459,8 @@ palpate_status palpate_pair_step(palpate_pair *pair, const palpate_pose *pose, p
 
 /** How a bridge that gives a voltage feeds a motor. All zero: the amplifier controls the current. */
 typedef struct palpate_voltage_feed {
-    float supply;          /**< Voltage at full duty, V; 0 for a current-controlled amplifier. */
-    float resistance;      /**< Of winding, brushes and bridge, ohms. */
+    float supply;          /**< Voltage at full duty, V, positive; 0 for a current-controlled amplifier. */
+    float resistance;      /**< Of winding, brushes and bridge, ohms, positive with a supply. */
     float torque_constant; /**< N·m/A. */
     float current_at_full; /**< Current that full duty of torque stands for, A. */
     float ratio;           /**< Turns of the motor for one of the joint. */
@@ -468,20 +471,20 @@ typedef struct palpate_voltage_feed {
 typedef struct palpate_joint {
     float radians_per_count;   /**< Joint angle a count, rad, not 0; negative where it counts the other way. */
     float angle_at_line;       /**< Joint angle where the count steps from -1 to 0, rad; as Encoder::new in Rust. */
-    float torque_at_full;      /**< Joint torque at full duty, N·m, not 0; negative where the motor turns the other way. */
-    float dry_friction;        /**< N·m, generously, not negative; 0 where it is not known. */
-    float least_angle;         /**< Minimum, rad; below it is a sensor fault. */
-    float greatest_angle;      /**< Maximum, rad, above it; above this a sensor fault. */
+    float torque_at_full;      /**< Joint torque at full duty, N·m, not 0, at most 200; negative where the motor turns the other way. */
+    float dry_friction;        /**< N·m, generously, 0 to |torque_at_full|; 0 where it is not known. */
+    float least_angle;         /**< Minimum, rad, within two turns, 20 of an only joint; below it is a sensor fault. */
+    float greatest_angle;      /**< Maximum, rad, above it, within the same; above this a sensor fault. */
     palpate_voltage_feed feed; /**< How the motor is fed. */
 } palpate_joint;
 
 /** A device, all but its mechanism. Joints that it does not have are not looked at. */
 typedef struct palpate_device {
     palpate_joint joints[3]; /**< Its joints. */
-    float min_margin;        /**< Minimum distance from a singularity, m/rad, positive, below it no force. An arm's links scale
+    float min_margin;        /**< Minimum distance from a singularity, m/rad, above 0 to 10, below it no force. An arm's links scale
                                   it (0.05 where they are 0.2 m); a dial's at most 0.8 of its radius, such as half. */
     float max_joint_rate;    /**< Maximum plausible joint speed, rad/s, positive; faster is a sensor fault. */
-    float max_force;         /**< N, positive. */
+    float max_force;         /**< N, above 0 to 1,000. */
     float max_stiffness;     /**< N/m, positive. */
     float max_damping;       /**< N·s/m, positive. */
 } palpate_device;

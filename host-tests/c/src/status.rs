@@ -125,12 +125,12 @@ impl Status {
             Self::FileBody => c"the body of the file is not one",
             Self::FileTables => c"the CRC-32 of the file's tables is not the one that was baked",
             Self::DeviceEncoder => c"an encoder's radians a count must be finite and not zero, its zero finite",
-            Self::DeviceMotor => c"a motor's torque must be finite and not zero",
-            Self::DeviceFriction => c"dry friction must be finite and not negative",
+            Self::DeviceMotor => c"torque_at_full must not be 0, at most 200 Nm either way; a feed is all 0, or its supply and resistance are positive, its back_emf_share 0 to 1",
+            Self::DeviceFriction => c"dry_friction must be 0 to its motor's torque_at_full, Nm",
             Self::DeviceRange => {
-                c"a joint's minimum angle must be below its maximum, both finite; or both infinite of an only joint, with 4 to 16777216 counts a turn"
+                c"a joint's minimum angle must be below its maximum, both within two turns (20 of an only joint); or both infinite of an only joint, with 4 to 16777216 counts a turn"
             }
-            Self::DeviceLimit => c"a device's margin, rate, force, stiffness and damping must be positive and finite",
+            Self::DeviceLimit => c"min_margin must be above 0, at most 10 m/rad, max_force above 0, at most 1000 N; max_joint_rate, max_stiffness, max_damping positive and finite",
             Self::DeviceMechanism => c"the mechanism needs lengths of 0.001 to 2 m, offsets within 2 m, a side of 1 or -1, and directions of length 1",
             Self::DeviceCentre => c"the workspace's centre is out of the mechanism's reach: it is in metres",
             Self::DeviceMass => c"a mass of the mechanism must be finite and not negative",
@@ -143,12 +143,12 @@ impl Status {
             Self::SettingsSoftStart => c"the soft start must be finite and not negative",
             Self::SettingsBodyOrigin => c"the body's origin must be finite",
             Self::SettingsFriction => c"friction must be finite and not negative, dynamic not above static",
-            Self::SettingsMaxSlew => c"the slew limit must be positive",
+            Self::SettingsMaxSlew => c"the slew limit must be positive; INFINITY for none",
             Self::SettingsSafeDamping => c"the safe damping must be between 0 and the device's maximum",
-            Self::SettingsLinkTimeout => c"the link's timeout must be positive",
+            Self::SettingsLinkTimeout => c"the link's timeout must be positive; INFINITY for none",
             Self::SettingsTexture => c"a texture needs its function, and a share between 0 and 1",
-            Self::SettingsCoupling => c"the virtual tool is too light for its coupling and the surface at this rate",
-            Self::SettingsPassivity => c"passivity control's parameters must be finite and not negative",
+            Self::SettingsCoupling => c"the virtual tool is too light: stiffness + coupling_stiffness must be below 2 * coupling_mass * rate^2, coupling_stiffness positive, coupling_damping not negative",
+            Self::SettingsPassivity => c"passivity control's numbers must be finite and not negative, its resolution positive",
             Self::SettingsEase => c"easing's onset must be finite and not negative, its change finite and positive",
             Self::ProtectionContinuous => c"a motor's continuous torque must be a positive share of full duty",
             Self::ProtectionTimeConstant => {
@@ -159,7 +159,7 @@ impl Status {
             Self::ProtectionInertia => c"the joints' inertias must be positive and finite",
             Self::HomingAngle => c"a reference angle must be finite",
             Self::HomingStill => c"homing must hold still for at least a tick",
-            Self::HomingStop => c"a stop needs an angle, a speed, and a positive torque, clearance and travel",
+            Self::HomingStop => c"a stop needs an angle, a speed not 0, and a positive torque, clearance and travel, all finite",
             Self::HomingTimeout => c"homing must be given more time than it is to hold still",
             Self::HomingStarted => c"homing must be set before the first tick",
             Self::SoftModes => c"a body that gives way has one to eight modes",
