@@ -677,7 +677,7 @@ typedef struct palpate_held {
     float orientation[4]; /**< The last one that was noted, x, y, z, w. */
 } palpate_held;
 
-/** A loop's settings. Begin with palpate_settings_recommended(). */
+/** A loop's settings. Begin with palpate_settings_recommended(). Numbers of a feature that is off must be finite, too. */
 typedef struct palpate_settings {
     float rate;               /**< Servo rate, Hz, 20 to 100,000. */
     float stiffness;          /**< N/m, 0 to palpate_device::max_stiffness. */
@@ -748,7 +748,7 @@ typedef struct palpate_protection {
                                       pulses one motor after another, 8 ms, at most a quarter of max_force. A motor that
                                       pushes the wrong way is #PALPATE_FAULT_WRONG_POLARITY. With recorded counts no
                                       joint follows its pulse, and no force comes: 0 there. */
-    float inertia[3];            /**< Moment of inertia that turns with each joint, kg·m², positive; for that check. */
+    float inertia[3];            /**< Moment of inertia that turns with each joint, kg·m², positive; for that check, without it finite. */
     uint32_t watch_supply;       /**< 0, or 1: a supply out of range, or not told by palpate_servo_supply(), is a fault. */
     uint32_t least_supply;       /**< Minimum, mV. */
     uint32_t most_supply;        /**< Maximum, mV, above it. */
@@ -761,7 +761,7 @@ enum {
     PALPATE_BY_STOPS = 3  /**< The motors drive one joint after the other to its end stop. */
 };
 
-/** Where a joint is known. All but the angle is for its stop alone. */
+/** Where a joint is known. All but the angle is looked at with #PALPATE_BY_STOPS only. */
 typedef struct palpate_reference {
     float angle;     /**< The joint's angle there, rad. */
     float speed;     /**< Towards the stop, rad/s; its sign is the way. */

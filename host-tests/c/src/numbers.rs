@@ -111,6 +111,15 @@ impl VoltageNumbers {
     }
 }
 
+/// A feature unless it is off, where its other numbers are looked at too: one that is not finite is a mistake.
+fn unless<T>(off: bool, numbers: &[f32], status: Status, feature: T) -> Result<Option<T>, Status> {
+    if !off {
+        return Ok(Some(feature));
+    }
+    finite(numbers).map_err(|_| status)?;
+    Ok(None)
+}
+
 impl DeviceNumbers {
     /// The device with this mechanism.
     pub fn device<K, const JOINTS: usize>(&self, kinematics: K) -> Result<Device<K, JOINTS>, Status> {
@@ -215,7 +224,6 @@ impl SettingsNumbers {
             static_coefficient: self.friction_static,
             dynamic_coefficient: self.friction_dynamic,
         };
-        let slips_freely = self.friction_static == 0.0 && self.friction_dynamic == 0.0;
         let coupling = Coupling {
             stiffness_n_per_m: self.coupling_stiffness,
             damping_n_s_per_m: self.coupling_damping,
@@ -230,11 +238,26 @@ impl SettingsNumbers {
         let ease = Ease { onset_n: self.ease_onset, change_n_per_s: self.ease_change };
         Ok(Rendering {
             velocity: if flag(self.between_counts)? { VelocityMethod::BetweenCounts } else { VelocityMethod::LowPass },
-            ease: if self.ease_change == 0.0 { None } else { Some(ease) },
-            friction: if slips_freely { None } else { Some(friction) },
+            ease: unless(self.ease_change == 0.0, &[self.ease_onset], Status::SettingsEase, ease)?,
+            friction: unless(
+                self.friction_static == 0.0 && self.friction_dynamic == 0.0,
+                &[self.friction_stiffness, self.friction_damping],
+                Status::SettingsFriction,
+                friction,
+            )?,
             texture: texture(self.texture_share)?,
-            coupling: if self.coupling_mass == 0.0 { None } else { Some(coupling) },
-            passivity: if self.passivity_damping == 0.0 { None } else { Some(passivity) },
+            coupling: unless(
+                self.coupling_mass == 0.0,
+                &[self.coupling_stiffness, self.coupling_damping],
+                Status::SettingsCoupling,
+                coupling,
+            )?,
+            passivity: unless(
+                self.passivity_damping == 0.0,
+                &[self.passivity_resolution, self.device_damping, self.device_friction],
+                Status::SettingsPassivity,
+                passivity,
+            )?,
             max_slew_n_per_s: self.max_slew,
             compensates_gravity: !flag(self.leave_weight)?,
         })

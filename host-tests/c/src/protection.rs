@@ -1,7 +1,7 @@
 //! Protection of motors and hand, as numbers.
 
 use crate::felt::Felt;
-use crate::pointers::{Plain, flag};
+use crate::pointers::{Plain, finite, flag};
 use crate::status::Status;
 use palpate_core::device::{Device, Endurance, PolarityCheck, Protection, SupplyRange};
 use palpate_core::servo::{Config, Guard, Guarded, Servo, Surface, Unguarded};
@@ -115,6 +115,8 @@ impl ProtectionNumbers {
         }
         if flag(self.watch_signs)? {
             protection.polarity = Some(signs);
+        } else {
+            finite(&signs.inertia_kg_m2).map_err(|_| Status::ProtectionInertia)?;
         }
         if flag(self.watch_supply)? {
             protection.supply = Some(SupplyRange { min_mv: self.least_supply, max_mv: self.most_supply });

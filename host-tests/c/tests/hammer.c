@@ -273,11 +273,13 @@ static palpate_status bad_servo(void)
     ((float *)&no_arm)[any(sizeof arm / sizeof(float))] = bad_float();
     /* Every number of the device but the feed's ratio and what only a voltage needs must be finite. */
     ((float *)&no_device)[any(sizeof device / sizeof(float))] = NAN;
-    /* Up to the timeout they are floats, and none may be NaN; without friction its stiffness is not looked at. */
-    no_settings.friction_static = 0.4f, no_settings.friction_dynamic = 0.3f;
-    no_settings.texture_share = 0.2f, no_settings.passivity_damping = 1, no_settings.passivity_resolution = 1e-4f;
-    no_settings.ease_onset = 1, no_settings.ease_change = 200;
-    no_settings.coupling_stiffness = 500, no_settings.coupling_damping = 3, no_settings.coupling_mass = 0.1f;
+    /* Up to the timeout they are floats, and none may be NaN, whether or not it is of a feature that is on. */
+    if (any(2)) {
+        no_settings.friction_static = 0.4f, no_settings.friction_dynamic = 0.3f;
+        no_settings.texture_share = 0.2f, no_settings.passivity_damping = 1, no_settings.passivity_resolution = 1e-4f;
+        no_settings.ease_onset = 1, no_settings.ease_change = 200;
+        no_settings.coupling_stiffness = 500, no_settings.coupling_damping = 3, no_settings.coupling_mass = 0.1f;
+    }
     ((float *)&no_settings)[any(offsetof(palpate_settings, max_overruns) / sizeof(float))] = NAN;
     void *no_body = no_handle(&body, sizeof body);
     palpate_status status;
@@ -305,6 +307,33 @@ static palpate_status bad_servo(void)
 }
 
 #define start_protected palpate_servo_start_serial_arm_protected
+
+/* A number that is none, of a feature that is off, is refused by that feature's status. */
+static void off_but_not_finite(void)
+{
+    static const struct { size_t at; palpate_status expected; } of[] = {
+        {offsetof(palpate_settings, friction_stiffness), PALPATE_SETTINGS_FRICTION},
+        {offsetof(palpate_settings, friction_damping), PALPATE_SETTINGS_FRICTION},
+        {offsetof(palpate_settings, coupling_stiffness), PALPATE_SETTINGS_COUPLING},
+        {offsetof(palpate_settings, coupling_damping), PALPATE_SETTINGS_COUPLING},
+        {offsetof(palpate_settings, passivity_resolution), PALPATE_SETTINGS_PASSIVITY},
+        {offsetof(palpate_settings, device_damping), PALPATE_SETTINGS_PASSIVITY},
+        {offsetof(palpate_settings, device_friction), PALPATE_SETTINGS_PASSIVITY},
+        {offsetof(palpate_settings, ease_onset), PALPATE_SETTINGS_EASE}};
+    palpate_servo *one = malloc(sizeof *one);
+    palpate_status status;
+    for (size_t i = 0; i < sizeof of / sizeof of[0]; i++) {
+        palpate_settings no_settings = settings;
+        *(float *)((char *)&no_settings + of[i].at) = bad_float();
+        status = start_arm(one, sizeof *one, &arm, &device, &body, &no_settings, 0);
+        if (status != of[i].expected) stop("another refusal of a feature that is off", status);
+    }
+    palpate_protection none = protection;
+    none.watch_signs = 0, none.inertia[any(3)] = bad_float();
+    status = start_protected(one, sizeof *one, &arm, &device, &body, &settings, &none, 0);
+    if (status != PALPATE_PROTECTION_INERTIA) stop("another refusal of an inertia", status);
+    free(one);
+}
 
 static palpate_status bad_protection(void)
 {
@@ -792,6 +821,7 @@ int main(int count, char **arguments)
     good("pair", palpate_pair_start(&pair, sizeof pair, &body, 0, &body, 0));
     good("servo", start_arm(&servo, sizeof servo, &arm, &device, &body, &settings, 0));
     good("soft", palpate_soft_body_load(&soft, sizeof soft, &body, modes, 2, settings.rate, room, sizeof room));
+    off_but_not_finite();
     press();
     const palpate_joint shaft = {6.2831853f / 4000, 0, 0.06f, 0, -INFINITY, INFINITY, {0, 0, 0, 0, 0, 0}};
     motor = device, motor.joints[0] = shaft, motor.min_margin = 0.01f, motor.max_stiffness = 4000,
