@@ -1181,7 +1181,7 @@ pub type Surface = palpate::body::Body<'static, palpate::field::Rigid<{ BODY.kin
 /// The body, with code for its own kinds of patches alone.
 #[allow(dead_code)]
 pub const SURFACE: &Surface = &BODY.of_kinds();
-/// The body with another effort in each tick, as far as it fits the bench boards' period.
+/// The body with another effort in each tick, as far as every tick keeps the limit that it was baked for.
 #[allow(dead_code)]
 pub const fn with_effort(effort: palpate::body::Effort) -> Surface {
     BODY.with_effort(effort).fitted(palpate::body::TickLimit::BENCH).of_kinds()

@@ -220,32 +220,19 @@ fn vector(vector: Vec3) -> TokenStream {
 }
 
 /// The limit of a tick.
-fn limit_of(TickLimit { evaluations, cycles }: TickLimit) -> TokenStream {
+fn limit_of(limit: TickLimit) -> TokenStream {
+    if limit == TickLimit::BENCH {
+        return quote!(palpate::body::TickLimit::BENCH);
+    }
+    let TickLimit { evaluations, cycles } = limit;
     let [evaluations, cycles] = [evaluations, cycles].map(Literal::u32_unsuffixed);
     quote!(palpate::body::TickLimit { evaluations: #evaluations, cycles: #cycles })
 }
 
 /// The locator and the body, with its effort and the limit that this keeps.
 fn whole(body: &BakedBody, crc: u32, (effort, limit): (Effort, TickLimit), centre: &TokenStream) -> TokenStream {
-    let Effort { steps, candidates } = effort;
-    let [steps, candidates] = [steps, candidates].map(Literal::u8_unsuffixed);
-    // The default needs no line.
-    let at_effort = if effort == Effort::BENCH {
-        TokenStream::new()
-    } else {
-        quote!(.with_effort(palpate::body::Effort { steps: #steps, candidates: #candidates }))
-    };
-    let (within, limit) = if limit == TickLimit::BENCH {
-        (
-            " The body with another effort in each tick, as far as it fits the bench boards' period.",
-            quote!(palpate::body::TickLimit::BENCH),
-        )
-    } else {
-        (
-            " The body with another effort in each tick, as far as every tick keeps the cycles of its bake's limit.",
-            limit_of(limit),
-        )
-    };
+    let [effort_steps, effort_candidates] = [effort.steps, effort.candidates].map(Literal::u8_unsuffixed);
+    let limit = limit_of(limit);
     let locator = &body.locator;
     let nodes = locator.nodes.iter().map(|node| {
         let children = node.map(Literal::u16_unsuffixed);
@@ -295,14 +282,15 @@ fn whole(body: &BakedBody, crc: u32, (effort, limit): (Effort, TickLimit), centr
             is_convex: #is_convex,
             crc: Some(TABLE_CRC),
         }
-        .checked()#at_effort;
+        .checked()
+        .with_effort(palpate::body::Effort { steps: #effort_steps, candidates: #effort_candidates });
         /// The type of the surface.
         #[allow(dead_code)]
         pub type Surface = palpate::body::Body<'static, palpate::field::Rigid<{ BODY.kinds() }>>;
         /// The body, with code for its own kinds of patches alone.
         #[allow(dead_code)]
         pub const SURFACE: &Surface = &BODY.of_kinds();
-        #[doc = #within]
+        /// The body with another effort in each tick, as far as every tick keeps the limit that it was baked for.
         #[allow(dead_code)]
         pub const fn with_effort(effort: palpate::body::Effort) -> Surface {
             BODY.with_effort(effort).fitted(#limit).of_kinds()

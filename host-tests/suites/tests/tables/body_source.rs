@@ -38,15 +38,10 @@ fn the_body_of_the_source_has_the_effort_that_keeps_its_limit() -> Result<(), Bo
         TickLimit { cycles: tables.with_effort(Effort { steps: 2, candidates: 1 }).worst_cycles(), ..TickLimit::BENCH };
     for limit in [TickLimit::BENCH, tight, TickLimit::NONE] {
         let (source, _) = baked(limit)?;
-        let effort = source.split(".with_effort(palpate::body::Effort {").nth(1).map(|text| {
-            let mut numbers =
-                text.split(|letter: char| !letter.is_ascii_digit()).filter_map(|digits| digits.parse().ok());
-            Effort { steps: numbers.next().unwrap(), candidates: numbers.next().unwrap() }
-        });
-        // Without a line it is the default's, as where there is no limit.
-        let of_source = tables.with_effort(effort.unwrap_or(Effort::BENCH));
-        assert!(of_source.fits(limit), "{effort:?}: {} cycles of {}", of_source.worst_cycles(), limit.cycles);
-        assert_eq!(effort.is_none(), limit == TickLimit::NONE);
+        let effort @ Effort { steps, candidates } = tables.fitted(limit).effort();
+        assert_eq!(effort == Effort::BENCH, limit == TickLimit::NONE, "{effort:?}");
+        let call = format!(".with_effort(palpate::body::Effort{{steps:{steps},candidates:{candidates},}});");
+        assert!(source.split_whitespace().collect::<String>().contains(&call), "{call}: {source}");
     }
     Ok(())
 }
