@@ -33,6 +33,7 @@ pub mod rate;
 pub mod sim;
 mod smoothing;
 mod soft;
+mod suits;
 mod table_report;
 pub mod talk;
 pub mod test;
