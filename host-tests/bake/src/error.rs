@@ -334,6 +334,19 @@ pub enum SeamFault {
         /// One too many.
         third: String,
     },
+    /// Two sides of a patch that meet are one point, and its other borders touch there.
+    #[error(
+        "patch {patch}: its sides {first} and {second} are both one point, in which its other borders are one curve: let one \
+         of the two be a point, and give the other a length"
+    )]
+    Cusp {
+        /// The patch.
+        patch: String,
+        /// A side along `u`.
+        first: String,
+        /// A side along `v`.
+        second: String,
+    },
     /// Two patches are the same surface.
     #[error("patch {first} and patch {second} are the same surface twice: leave one out")]
     Duplicate {

@@ -45,6 +45,15 @@ pub(super) struct Matched<'a> {
     pub poles: Vec<Candidate<'a>>,
 }
 
+/// Two sides of a patch that meet and are points: around their corner its other borders are one curve.
+fn cusp(patch: usize, poles: &[Candidate<'_>], label: &dyn Fn(usize) -> String) -> Option<SeamFault> {
+    let pole = |along_u: bool| {
+        poles.iter().map(|pole| pole.border).find(|border| border.patch == patch && (border.side < 2) == along_u)
+    };
+    let (first, second) = (pole(true)?.to_string(), pole(false)?.to_string());
+    Some(SeamFault::Cusp { patch: label(patch), first, second })
+}
+
 /// Finds which borders are the same curve, and refuses near matches.
 pub(super) fn match_borders<'a>(
     patches: &'a [NurbsPatch],
@@ -67,6 +76,10 @@ pub(super) fn match_borders<'a>(
     duplicates(&candidates, &partners, tolerance, label)?;
     for (i, all) in partners.iter().enumerate() {
         if let [(second, _), (third, _), ..] = all[..] {
+            let of_these = [i, second, third].map(|index| candidates[index].border.patch);
+            if let Some(cusp) = of_these.iter().find_map(|patch| cusp(*patch, &poles, label)) {
+                return Err(cusp);
+            }
             let [first, second, third] = [i, second, third].map(|index| name(&candidates[index]));
             return Err(SeamFault::ThreeFaces { first, second, third });
         }

@@ -229,3 +229,26 @@ fn a_mutated_model_never_panics() {
         }
     }
 }
+
+#[test]
+fn a_patch_with_two_collapsed_sides_that_meet_is_named_with_the_remedy() {
+    let leaf = r#"
+name = "leaf"
+unit = "mm"
+
+[[patch]]
+name = "leaf"
+degree = [2, 2]
+points = [
+  [[0, 0, 0], [0, 0, 0], [0, 0, 0]],
+  [[0, 0, 0], [10, 8, 2], [20, 4, 0]],
+  [[0, 0, 0], [12, 2, 0], [30, 0, 0]],
+]
+"#;
+    let error = baked(leaf).expect_err("a cusp");
+    assert!(error.starts_with("spoiled.toml: patch \"leaf\""), "{error}");
+    assert!(error.contains("its sides u = 0 and v = 0 are both one point"), "{error}");
+    assert!(error.ends_with("let one of the two be a point, and give the other a length"), "{error}");
+    // So it is an edge of the body.
+    assert_eq!(baked(&leaf.replace("[[0, 0, 0], [0, 0, 0], [0, 0, 0]]", "[[0, 0, 0], [1, 3, 0], [2, 6, 0]]")), Ok(()));
+}

@@ -135,6 +135,7 @@ fn seams() -> Vec<SeamFault> {
     let second = || "side v = 1 of patch \"b\"".to_owned();
     let all = vec![
         SeamFault::ThreeFaces { first: first(), second: second(), third: "side u = 1 of patch \"c\"".to_owned() },
+        SeamFault::Cusp { patch: "\"a\"".to_owned(), first: "u = 0".to_owned(), second: "v = 1".to_owned() },
         SeamFault::Duplicate { first: "\"a\"".to_owned(), second: "\"b\"".to_owned() },
         SeamFault::Orientation { first: first(), second: second(), suspect: "\"a\"".to_owned() },
         SeamFault::Partial { first: first(), second: second(), from: 0.25, to: 1.0 },
@@ -146,6 +147,7 @@ fn seams() -> Vec<SeamFault> {
     ];
     match all[0] {
         SeamFault::ThreeFaces { .. }
+        | SeamFault::Cusp { .. }
         | SeamFault::Duplicate { .. }
         | SeamFault::Orientation { .. }
         | SeamFault::Partial { .. }
