@@ -25,7 +25,8 @@ class Closest(NamedTuple):
         proved to hold the closest point from there, even if `complete`. `Body.bake` with a larger `margin` reaches it.
     clamped : (n,) bool -- whether a q was beyond its budget, and was set to it.
     error_bound : (n,) float64 -- how much nearer another point of the stored single-precision tables may be, m, proved;
-        NaN unless asked for. The surface of your double-precision numbers may be some 1e-7 sizes nearer.
+        NaN unless asked for. The surface of your double-precision numbers may be some 1e-7 sizes nearer, and more
+        where weights are uneven.
     """
 
     patch: NDArray[np.uint32]
