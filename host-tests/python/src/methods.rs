@@ -13,7 +13,7 @@ use crate::tracker::Tracker;
 use crate::{evaluate, patches};
 use glam::DVec3;
 use numpy::PyReadonlyArray2;
-use palpate_bake::flaws;
+use palpate_bake::flaws::{self, Flaw};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple};
 use std::fs;
@@ -77,14 +77,16 @@ impl Body {
         PyList::new(py, (0..self.model.patches.len()).map(|index| self.model.patch_label(index)))
     }
 
+    /// Each in words, and whether signs are wrong near it.
     #[getter]
-    fn flaws(&self, py: Python<'_>) -> Vec<String> {
+    fn flaws(&self, py: Python<'_>) -> Vec<(String, bool)> {
         py.detach(|| {
             let surfaces: Vec<_> = self.baked.faces.iter().map(|face| face.surface.clone()).collect();
             let labels = self.baked.labels(&self.model);
             let found = flaws::find(&surfaces, &self.baked.topology);
             let label = |index: usize| labels.get(index).cloned().unwrap_or_default();
-            found.iter().map(|flaw| flaw.describe(&label, self.model.centre, self.model.unit)).collect()
+            let told = |flaw: &Flaw| (flaw.describe(&label, self.model.centre, self.model.unit), flaw.is_wrong());
+            found.iter().map(told).collect()
         })
     }
 

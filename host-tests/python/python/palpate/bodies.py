@@ -61,7 +61,8 @@ class Body:
 
         Raises ModelError for what is no body and for a fault of its modes, FileError for a spoiled ``.palp``,
         SettingsError for another margin, or one for a ``.palp``, FileNotFoundError and its like for a path that cannot
-        be read; each names the culprit. Warns of each of its `flaws`.
+        be read; each names the culprit. Warns of each of its `flaws` near which signs and forces are wrong; open edges, as of a
+        sheet, are none of these.
 
         >>> import palpate
         >>> square = {"degree": [1, 1], "points": [[[0, 0, 0], [0, 4, 0]], [[6, 0, 0], [6, 4, 0]]]}
@@ -85,8 +86,9 @@ class Body:
         finally:
             if told:
                 print(file=sys.stderr)
-        for flaw in body.flaws:
-            warnings.warn(f"{body.name or 'model'}: {flaw}", stacklevel=2)
+        for flaw, is_wrong in body._native.flaws:
+            if is_wrong:
+                warnings.warn(f"{body.name or 'model'}: {flaw}", stacklevel=2)
         return body
 
     @staticmethod
@@ -216,9 +218,9 @@ class Body:
 
     @property
     def flaws(self) -> list[str]:
-        """Patches that cut each other, pieces within others and gaps, as ``palpate check`` finds them: signs and forces are
-        wrong near them."""
-        return self._native.flaws
+        """What ``palpate check`` finds: patches that cut each other and pieces within others, near which signs and forces are
+        wrong and of which `bake` warns; and open edges, as of a sheet, of which it does not."""
+        return [flaw for flaw, _ in self._native.flaws]
 
     @property
     def faces(self) -> int:
