@@ -3,7 +3,7 @@
 use crate::arrays::{Table, amplitudes, line, rows, table, usable};
 use crate::body::Body;
 use crate::closest::Found;
-use crate::model::{of_baked, of_file};
+use crate::model::{Source, of_baked, of_file};
 use crate::modes::Modes;
 use crate::pair::Pair;
 use crate::refusal::Refusal;
@@ -17,12 +17,57 @@ use palpate_bake::flaws::{self, Flaw};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple};
 use std::fs;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::path::PathBuf;
-use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, sync_channel};
+use std::sync::{Arc, Mutex};
+use std::thread::Builder;
 use std::time::{Duration, Instant};
 
 /// Between two reports of progress, and before the first.
 const PACE: Duration = Duration::from_secs(1);
+/// How long to wait before looking at Python's signals.
+const LOOK: Duration = Duration::from_millis(100);
+/// Stack of a thread that bakes, bytes: as that of a program's first thread.
+const STACK: usize = 8 << 20;
+
+/// A model to bake.
+enum Given {
+    File(PathBuf),
+    Patches(Source),
+}
+
+/// Does a job in a thread of its own, and looks at Python's signals meanwhile. Where one of them raises, `is_left` is set,
+/// at which the job may unwind.
+fn interruptible<T: Send + 'static>(
+    py: Python<'_>,
+    is_left: &AtomicBool,
+    job: impl FnOnce() -> Result<T, Refusal> + Send + 'static,
+) -> PyResult<T> {
+    let (answer, hear) = sync_channel(1);
+    // Nothing of a job that unwound is used.
+    let work = move || answer.send(catch_unwind(AssertUnwindSafe(job)));
+    Builder::new().stack_size(STACK).spawn(work)?;
+    let hear = Mutex::new(hear);
+    loop {
+        let heard =
+            py.detach(|| hear.lock().map_or(Err(RecvTimeoutError::Disconnected), |hear| hear.recv_timeout(LOOK)));
+        // Before the answer: the same signal may have ended an importer.
+        if let Err(raised) = py.check_signals() {
+            is_left.store(true, Ordering::Relaxed);
+            return Err(raised);
+        }
+        match heard {
+            Ok(Ok(made)) => return Ok(made?),
+            Ok(Err(panic)) => resume_unwind(panic),
+            Err(RecvTimeoutError::Timeout) => (),
+            Err(RecvTimeoutError::Disconnected) => {
+                return Err(Refusal::Model("the thread that bakes has ended".to_owned()).into());
+            }
+        }
+    }
+}
 
 #[pymethods]
 impl Body {
@@ -36,16 +81,20 @@ impl Body {
         margin: f64,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Self> {
-        let source = if let Ok(path) = model.extract::<PathBuf>() {
-            py.detach(|| of_file(&path, tolerance))?
+        let given = if let Ok(path) = model.extract::<PathBuf>() {
+            Given::File(path)
         } else {
             let listed: Vec<Bound<'_, PyDict>> = model
                 .extract()
                 .map_err(|_| Refusal::Model("a model is a path, or a list of patches, each a dictionary".to_owned()))?;
-            patches::model(&listed, unit)?
+            Given::Patches(patches::model(&listed, unit)?)
         };
-        let told = Mutex::new(Instant::now());
-        let tell = |done: usize, all: usize| {
+        let (told, is_left) = (Mutex::new(Instant::now()), Arc::new(AtomicBool::new(false)));
+        let is_over = Arc::clone(&is_left);
+        let tell = move |done: usize, all: usize| {
+            if is_over.load(Ordering::Relaxed) {
+                resume_unwind(Box::new("interrupted"));
+            }
             // Workers that find another one speaking go on.
             let Some((progress, mut told)) = progress.as_ref().zip(told.try_lock().ok()) else { return };
             if told.elapsed() > PACE {
@@ -54,7 +103,13 @@ impl Body {
                 *told = Instant::now();
             }
         };
-        Ok(py.detach(|| Self::of(source, modes.as_deref(), margin, &tell))?)
+        interruptible(py, &is_left, move || {
+            let source = match given {
+                Given::File(path) => of_file(&path, tolerance)?,
+                Given::Patches(source) => source,
+            };
+            Self::of(source, modes.as_deref(), margin, &tell)
+        })
     }
 
     #[staticmethod]

@@ -1,7 +1,10 @@
 """Bodies: baked from every kind of model, saved, loaded, refused."""
 
 import re
+import signal
 import sys
+import threading
+import time
 import warnings
 
 import numpy as np
@@ -215,6 +218,26 @@ def test_boxes_that_cut_each_other_are_named_as_a_flaw():
     with pytest.warns(UserWarning, match="cut each other"):
         body = palpate.Body.bake(cut)
     assert any("cut each other" in flaw for flaw in body.flaws)
+
+
+def test_an_interrupt_ends_a_bake_within_a_second():
+    # A long bake: it would take half a minute.
+    model = [
+        dict(patch, points=[[[x + 0.02 * i, y, z] for x, y, z in row] for row in patch["points"]])
+        for i in range(40)
+        for patch in box((0, 0, 0), (0.01, 0.01, 0.01))
+    ]
+    interrupt = threading.Timer(0.5, signal.raise_signal, [signal.SIGINT])
+    began = time.monotonic()
+    interrupt.start()
+    with pytest.raises(KeyboardInterrupt):
+        palpate.Body.bake(model)
+    assert time.monotonic() - began < 1.5
+    # What it was at has ended, too.
+    time.sleep(1)
+    before = time.process_time()
+    time.sleep(0.5)
+    assert time.process_time() - before < 0.25
 
 
 def test_a_face_or_a_count_of_steps_out_of_range_is_named():

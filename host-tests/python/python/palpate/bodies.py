@@ -62,7 +62,7 @@ class Body:
         Raises ModelError for what is no body and for a fault of its modes, FileError for a spoiled ``.palp``,
         SettingsError for another margin, or one for a ``.palp``, FileNotFoundError and its like for a path that cannot
         be read; each names the culprit. Warns of each of its `flaws` near which signs and forces are wrong; open edges, as of a
-        sheet, are none of these.
+        sheet, are none of these. Ctrl-C ends a bake.
 
         >>> import palpate
         >>> square = {"degree": [1, 1], "points": [[[0, 0, 0], [0, 4, 0]], [[6, 0, 0], [6, 4, 0]]]}
