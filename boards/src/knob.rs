@@ -38,10 +38,12 @@ const _: () = {
     assert!(HEATING_S > 0.0 && HEATING_S < f32::INFINITY, "HEATING_S must be positive, in seconds");
 };
 const FEED: VoltageFeed = VoltageFeed::three_phase(SUPPLY_V, PHASE_OHM, RPM_PER_V, CURRENT_AT_FULL);
-/// The motor. Dial, sensor and limits are those of the preset.
+/// The motor. Dial, sensor and the other limits are those of the preset.
 pub const MOTOR: Device<Dial, 1> = Device {
     motors: [Motor::current_driven(FEED.torque_constant_n_m_per_a, CURRENT_AT_FULL, 1.0)],
     feeds: [Feed::Voltage(FEED)],
+    // The knob's limit, 56 mN·m at 20 mm, whatever more the motor has: raise it only as far as the hand bears.
+    max_force_n: 2.8,
     ..GIMBAL_KNOB
 };
 /// Half the number of magnets, and the sensor's counts.
@@ -72,7 +74,7 @@ const _: () = {
 };
 /// `max_a`: twice a phase's amplitude at full duty. `open_a`: 4.5 times the current of a tenth of a volt that dead time
 /// leaves, over the phase resistance: a connected phase with a third of it, less that error, has more than the tenth that
-/// counts as none. Below half the amplitude of the alignment, 0.29 A.
+/// counts as none. The alignment has at least twice that in each phase.
 pub const CURRENTS: CurrentLimits = CurrentLimits { max_a: 1.6 * CURRENT_AT_FULL, open_a: 0.45 / PHASE_OHM };
 
 /// 4 kHz; stiffness and damping are the feels' own.
@@ -80,7 +82,7 @@ pub const SETTINGS: Settings = Settings {
     rate_hz: 4_000.0,
     stiffness_n_per_m: 1_000.0,
     damping_n_s_per_m: 0.0,
-    max_force_n: 2.8,
+    max_force_n: MOTOR.max_force_n,
     velocity_corner_hz: 150.0,
     soft_start_s: 0.2,
     body_origin_m: Vec3::ZERO,
@@ -91,21 +93,98 @@ pub const fn device(cogging: Option<CoggingMap>) -> Device<Dial, 1> {
     Device { kinematics: Dial { cogging, ..MOTOR.kinematics }, ..MOTOR }
 }
 
-/// The field comes up within a fifth of a second and is led round three electrical turns, half a second each.
-pub const SEARCH: FieldSearch =
-    FieldSearch { commutation: COMMUTATION, torque_n_m: 0.03, ramp_ticks: 800, turn_ticks: 2_000, turns: 1 };
+/// Maximum torque of the field that aligns the rotor, N·m: 2 N on a thumb at a dial of 20 mm. The field that records the
+/// cogging has as much.
+const MAX_ALIGNMENT_N_M: f32 = 0.04;
+/// Enough for friction and cogging, N·m.
+const USUAL_ALIGNMENT_N_M: f32 = 0.03;
+/// A phase's amplitude over the current in the scale that keeps the power: √(2/3).
+const AMPLITUDE: f32 = 0.816_496_6;
+
+/// The torque of the field that aligns a motor with this continuous torque, where a phase below `open_a` counts as open,
+/// N·m: the usual one, or more where that would not detect it, rounded up to a mN·m. It never exceeds the continuous torque
+/// or [`MAX_ALIGNMENT_N_M`].
+pub const fn alignment_n_m(feed: &VoltageFeed, continuous_n_m: f32, open_a: f32) -> f32 {
+    let needed = ((1e3 * detecting_n_m(feed, open_a)) as u32 + 1) as f32 * 1e-3;
+    let wanted = if needed > USUAL_ALIGNMENT_N_M { needed } else { USUAL_ALIGNMENT_N_M };
+    let most = if continuous_n_m < MAX_ALIGNMENT_N_M { continuous_n_m } else { MAX_ALIGNMENT_N_M };
+    if wanted < most { wanted } else { most }
+}
+
+/// The torque of a field with twice this current in each phase, N·m.
+const fn detecting_n_m(feed: &VoltageFeed, open_a: f32) -> f32 {
+    2.0 * open_a / AMPLITUDE * feed.torque_constant_n_m_per_a
+}
+
+/// Torque that the motor gives continuously, N·m.
+const CONTINUOUS_N_M: f32 = {
+    let share = PROTECTION.motors[0].continuous;
+    (if share < 1.0 { share } else { 1.0 }) * MOTOR.motors[0].torque_at_full_n_m
+};
+
+/// The field comes up within a fifth of a second and is led round three electrical turns, half a second each. Its torque
+/// follows from the motor's numbers.
+pub const SEARCH: FieldSearch = FieldSearch {
+    commutation: COMMUTATION,
+    torque_n_m: alignment_n_m(&FEED, CONTINUOUS_N_M, CURRENTS.open_a),
+    ramp_ticks: 800,
+    turn_ticks: 2_000,
+    turns: 1,
+};
 
 // Invalid numbers are compile errors of the host's programs too.
 const _: Homing<1> = homing(SEARCH);
 
+/// This text with a number of thousandths in the place of its `#`.
+const fn with_thousandths<const N: usize>(text: &str, number: f32) -> [u8; N] {
+    let mut bytes = [0; N];
+    let (mut at, mut left) = (N, (1e3 * number + 0.999) as u32);
+    while at > 0 {
+        at -= 1;
+        bytes[at] = text.as_bytes()[at];
+        if bytes[at] == b'#' {
+            bytes[at] = b'0' + (left % 10) as u8;
+            left /= 10;
+        }
+    }
+    bytes
+}
+
+/// Refuses a number that is below another at compile time, with that one in the place of the text's `#`.
+macro_rules! at_least {
+    ($number:expr, $least:expr, $text:literal) => {
+        if $number < $least {
+            const TEXT: [u8; $text.len()] = with_thousandths($text, $least);
+            match core::str::from_utf8(&TEXT) {
+                Ok(text) => panic!("{}", text),
+                Err(_) => panic!($text),
+            }
+        }
+    };
+}
+
+// In the alignment a connected phase must have twice the current of an open one.
 const _: () = {
-    // A phase's amplitude is √(2/3) of that scale's current.
-    let alignment_a = 0.816_496_6 * SEARCH.torque_n_m / FEED.torque_constant_n_m_per_a;
-    let full_a = 0.816_496_6 * CURRENT_AT_FULL;
-    let least_a = if alignment_a < full_a { alignment_a } else { full_a };
+    at_least!(
+        CURRENT_AT_FULL,
+        2.0 * CURRENTS.open_a / AMPLITUDE,
+        "CURRENT_AT_FULL must be at least #.### A, or an open phase would not be detected: 1.1 V over PHASE_OHM"
+    );
+    at_least!(
+        CONTINUOUS_A,
+        2.0 * CURRENTS.open_a,
+        "CONTINUOUS_A must be at least #.### A, or an open phase would not be detected: 0.9 V over PHASE_OHM"
+    );
+    at_least!(
+        MAX_ALIGNMENT_N_M,
+        detecting_n_m(&FEED, CURRENTS.open_a),
+        "MAX_ALIGNMENT_N_M must be at least #.### N·m, or an open phase would not be detected: the torque of 1.1 V \
+         at this PHASE_OHM and RPM_PER_V; raise it only if the hand at the dial bears that, or take a motor of more ohms"
+    );
     assert!(
-        2.0 * CURRENTS.open_a <= least_a,
-        "an open phase would not be detected: the current of SEARCH, or CURRENT_AT_FULL, is too low for PHASE_OHM"
+        2.0 * CURRENTS.open_a
+            <= AMPLITUDE * SEARCH.torque_n_m / FEED.torque_constant_n_m_per_a * (1.0 + 4.0 * f32::EPSILON),
+        "the alignment must have twice the current of an open phase, but for roundings"
     );
 };
 
@@ -117,7 +196,7 @@ pub const JOG: JogSettings =
 
 /// No heat is counted meanwhile: the limit is the motor's continuous torque. Rounded down to a hundredth.
 const LED_SHARE: f32 = {
-    let continuous = PROTECTION.motors[0].continuous * MOTOR.motors[0].torque_at_full_n_m;
+    let continuous = CONTINUOUS_N_M;
     let torque = if continuous * 0.975 < 0.0402 { continuous * 0.975 } else { 0.0402 };
     let hundredths = (100.0 * torque / led_torque(1.0)) as u32;
     assert!(

@@ -5,11 +5,13 @@ mod frame;
 mod heat;
 mod lost_phase;
 
-use palpate::device::drive::Supply;
+use palpate::device::drive::{Supply, VoltageFeed};
 use palpate::device::{Counts, Duty, Refusal};
 use palpate::render::{Feel, Spring, Wave};
 use palpate::servo::{Config, Fault, Input, Knob, Output, Phase, Servo, Settings};
-use palpate_sim::knob::{FEELS, HostKnob, LET_GO, NAMES, SEARCH, SETTINGS, device};
+use palpate_sim::knob::{
+    FEELS, HostKnob, LET_GO, NAMES, PHASE_OHM, RPM_PER_V, SEARCH, SETTINGS, alignment_n_m, device,
+};
 use palpate_sim::plant::{Dial, DialSettings, Fingers, MagneticFault};
 use std::f64::consts::TAU;
 
@@ -44,6 +46,28 @@ fn the_alignment_is_bounded_and_needs_the_button_all_the_time() {
     assert!(knob.state().homed() && knob.state().fault().is_none());
     // Its torque is at most the search's, on a rotor that stands across its field; a tenth for back-EMF.
     assert!(torque > 1e-3 && torque <= 1.1 * f64::from(SEARCH.torque_n_m), "{torque}");
+}
+
+#[test]
+fn the_alignment_of_a_stronger_motor_detects_an_open_phase_and_none_exceeds_what_motor_and_thumb_bear() {
+    let aligned = |ohm: f32, rpm_per_v: f32, continuous_n_m: f32| {
+        let feed = VoltageFeed::three_phase(12.0, ohm, rpm_per_v, 0.75);
+        let torque = alignment_n_m(&feed, continuous_n_m, 0.45 / ohm);
+        let amplitude = f64::from(torque / feed.torque_constant_n_m_per_a) * (2.0_f64 / 3.0).sqrt();
+        (f64::from(torque) * 1e3, amplitude >= 0.9 / f64::from(ohm))
+    };
+    assert_eq!(aligned(PHASE_OHM, RPM_PER_V, 0.041).0, f64::from(SEARCH.torque_n_m) * 1e3);
+    for (ohm, rpm_per_v, continuous, expected, detects) in [
+        (7.5, 80.0, 0.041, 30.0, true),
+        // 0.9 V over 5.6 Ω in a phase is 33.2 mN·m at 169 mN·m/A.
+        (5.6, 40.0, 0.083, 34.0, true),
+        // 64 mN·m would detect it: a compile error of the boards' file.
+        (2.0, 58.0, 0.083, 40.0, false),
+        (7.5, 80.0, 0.020, 20.0, true),
+    ] {
+        let (torque, is_detected) = aligned(ohm, rpm_per_v, continuous);
+        assert!((torque - expected).abs() < 1e-5 && is_detected == detects, "{ohm} Ω, {rpm_per_v} rpm/V: {torque}");
+    }
 }
 
 /// A hand that spins the dial meanwhile: what it adds is its own speed's, and the field stays as weak as it was.
