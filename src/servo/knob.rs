@@ -579,15 +579,15 @@ mod tests {
         for (feel, says) in [
             (
                 Feel { detents: wave(0.25, 0.07), ..Feel::FREE },
-                "as stiff as 1759.29 mN·m/rad, and the device's limit is 1600.00",
+                "as stiff as 1759.29 mN·m/rad, and the device's limit is 1600.00 mN·m/rad (max_stiffness_n_per_m): weaken",
             ),
             (
                 Feel { detents: wave(2.5, 0.07), ..Feel::FREE },
-                "up to 70.00 mN·m, and the device's limit is 56.00 mN·m: weaken",
+                "up to 70.00 mN·m, and the device's limit is 56.00 mN·m (max_force_n): weaken",
             ),
             (
                 Feel { damping_n_m_s_per_rad: 4e-3, ..Feel::FREE },
-                "damps by 4.00 mN·m·s/rad, and the device's limit is 3.20",
+                "damps by 4.00 mN·m·s/rad, and the device's limit is 3.20 mN·m·s/rad (max_damping_n_s_per_m): weaken",
             ),
         ] {
             let said = std::string::ToString::to_string(&refused(feel));

@@ -101,12 +101,18 @@ impl KnobError {
 
 impl fmt::Display for KnobError {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let whose = if matches!(self, Self::Motor { .. }) { "motor" } else { "device" };
+        // The number of the device that is the limit, to be looked up or raised.
+        let (whose, number) = match self {
+            Self::Motor { .. } => ("motor", ""),
+            Self::Stiffness { .. } => ("device", " (max_stiffness_n_per_m)"),
+            Self::Damping { .. } => ("device", " (max_damping_n_s_per_m)"),
+            _ => ("device", " (max_force_n)"),
+        };
         let mut beyond = |does: &str, [asked, limit]: [f32; 2], unit: &str| {
             let [asked, limit] = [1e3 * asked, 1e3 * limit];
             write!(
                 formatter,
-                "with it the feel {does} {asked:.2} {unit}, and the {whose}'s limit is {limit:.2} {unit}: "
+                "with it the feel {does} {asked:.2} {unit}, and the {whose}'s limit is {limit:.2} {unit}{number}: "
             )?;
             formatter.write_str("weaken it or another part, or take one away")
         };

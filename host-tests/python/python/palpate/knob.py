@@ -30,7 +30,7 @@ class Knob:
     >>> knob.spring(stiffness=0.1, max_torque=0.04)
     Traceback (most recent call last):
     ...
-    palpate.SettingsError: spring was refused by the device: with it the feel has up to 60.00 mN·m, and the device's limit is 56.00 mN·m: weaken it or another part, or take one away
+    palpate.SettingsError: spring was refused by the device: with it the feel has up to 60.00 mN·m, and the device's limit is 56.00 mN·m (max_force_n): weaken it or another part, or take one away
     """
 
     __slots__ = ("_native",)

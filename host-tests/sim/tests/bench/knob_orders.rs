@@ -213,7 +213,10 @@ fn the_documented_part_is_taken_and_a_refusal_comes_with_its_limit() {
     // Beside the detents of the table's first feel, 30 mN·m.
     let spring = Spring { stiffness_n_m_per_rad: 0.125, rest_rad: -0.5, max_torque_n_m: 0.03125 };
     let refused = device.order(304, Command::Feel(FeelPart::Spring(Some(spring)))).expect("a refusal");
-    assert!(refused.to_string().contains("up to 61.25 mN·m, and the device's limit is 56.00 mN·m"), "{refused}");
+    assert!(
+        refused.to_string().contains("up to 61.25 mN·m, and the device's limit is 56.00 mN·m (max_force_n)"),
+        "{refused}"
+    );
     // A board without flash for it says so.
     device.send(&HostMessage::KeepFeel { number: 305, keeps: true });
     (0..4).for_each(|_| device.tick());

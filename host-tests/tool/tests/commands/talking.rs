@@ -84,7 +84,9 @@ fn a_knob_says_what_became_of_its_feel() {
     let arguments = ["--device", "knob", "--host"];
     let (status, said, complained) = talk(&arguments, "free\nwait 0.2\nkeep-feel\nforget-feel\n");
     assert!(said.starts_with("a knob of 4000 Hz;"), "{said}");
-    let outcome = "done\nkept: the knob starts with this feel from the next reset on\n\
+    let outcome = "done\nthe simulated hand has released the button, and holds it to confirm\n\
+                   kept: the knob starts with this feel from the next reset on\n\
+                   the simulated hand has released the button, and holds it to confirm\n\
                    cleared: it starts with its table from the next reset on\n";
     assert_eq!((status, said.contains(outcome)), (Some(0), true), "{said}{complained}");
     // A reset starts with what was kept: spring and damping have no detents, the table's first feel has 30 mN·m.
@@ -122,8 +124,8 @@ fn a_knob_says_what_became_of_its_feel() {
         ("keep-feel\n", "keep-feel was refused by the device: no feel was set since the last reset; set one first"),
         (
             "spring 17 31.25 0\n",
-            "spring was refused by the device: with it the feel has up to 61.25 mN·m, and the device's limit is 56.00 mN·m: \
-             weaken it or another part, or take one away",
+            "spring was refused by the device: with it the feel has up to 61.25 mN·m, and the device's limit is 56.00 mN·m \
+             (max_force_n): weaken it or another part, or take one away",
         ),
     ] {
         let (status, _, complained) = talk(&arguments, lines);
