@@ -204,6 +204,7 @@ impl<'a, L: Line> Console<'a, L> {
                 let confirm = || match button {
                     Some(button) => {
                         button(Press::Confirm);
+                        let _ = writeln!(output, "the simulated hand has released the button, and holds it to confirm");
                     }
                     None => {
                         // A person who does not read it does not confirm, and that is refused.
