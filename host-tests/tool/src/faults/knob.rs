@@ -2,7 +2,7 @@
 
 use palpate::servo::Fault;
 use palpate_bench::{Chopper, CurrentWatch};
-use palpate_sim::knob::{CHOPPER, CURRENTS, HostKnob, SETTINGS, dial};
+use palpate_sim::knob::{CHOPPER, CURRENTS, HostKnob, PROTECTION, SETTINGS, dial};
 use palpate_sim::plant::{Fingers, MagneticFault};
 
 /// The spring, in which a turned dial needs every phase.
@@ -12,6 +12,9 @@ const RATE: f64 = 2.0;
 /// Of the supply behind its diode, F and V.
 const CAPACITY: f64 = 1e-3;
 const SUPPLY: f64 = 12.0;
+/// How fast a hand that is stronger than the motor gains speed, rad/s²: 2 g at a rim of 20 mm. At once, the back-EMF
+/// would be a fault of the currents first.
+const SPEEDING: f64 = 1_000.0;
 /// Given back by a braking motor, A.
 const BRAKING: f64 = 1.0;
 
@@ -24,6 +27,9 @@ pub struct KnobBench {
     chopper_burns: bool,
     /// A, given back.
     braking: f64,
+    /// A hand that turns the dial faster and faster, up to this rate, rad/s.
+    up_to: Option<f64>,
+    rate: f64,
 }
 
 /// A failure of a knob.
@@ -54,15 +60,17 @@ pub struct KnobFound {
 }
 
 impl KnobBench {
-    fn running() -> Self {
+    fn running(knob: HostKnob) -> Self {
         let rate = SETTINGS.rate_hz;
         let mut bench = Self {
-            knob: HostKnob::running(dial(), None),
+            knob,
             watch: CurrentWatch::new(CURRENTS),
             are_currents_measured: true,
             chopper: Chopper::new(CHOPPER, rate),
             chopper_burns: true,
             braking: 0.0,
+            up_to: None,
+            rate: RATE,
         };
         bench.knob.choose(SPRING);
         bench.knob.dial.hold(Fingers { damping: 0.05, rate: RATE, ..Fingers::NONE });
@@ -79,6 +87,10 @@ impl KnobBench {
             0.0
         };
         let period = 1.0 / f64::from(SETTINGS.rate_hz);
+        if let Some(most) = self.up_to {
+            self.rate = (self.rate + SPEEDING * period).min(most);
+            dial.hold(Fingers::forcing(self.rate));
+        }
         dial.supply((volts + (self.braking - burnt) * period / CAPACITY).max(volts.min(SUPPLY)));
         // As `CurrentWatched` does, for the field of the last tick.
         let driven = self.knob.widths().and_then(|_| self.knob.servo().fields(self.knob.state()));
@@ -95,7 +107,11 @@ impl KnobBench {
 impl KnobFailure {
     /// The effect on the simulated knob.
     pub fn plant(&self) -> KnobFound {
-        let mut bench = KnobBench::running();
+        self.plant_in(HostKnob::running(dial(), None))
+    }
+
+    fn plant_in(&self, knob: HostKnob) -> KnobFound {
+        let mut bench = KnobBench::running(knob);
         assert!(bench.knob.widths().is_some() && bench.knob.state().fault().is_none(), "it drives");
         (self.plant)(&mut bench);
         let start = bench.knob.dial.angle();
@@ -162,14 +178,47 @@ pub const KNOB: [KnobFailure; 10] = [
         bench.knob.dial.spoil(Some(MagneticFault::Stuck));
     }),
     row(["it is turned too fast under force", "speed limit", DIAL_TEST], 100.0, Fault::Overspeed, |bench| {
-        bench.knob.dial.hold(Fingers { stiffness: 0.0, damping: 5e-3, aim: 0.0, rate: 90.0 });
+        let [limit] = PROTECTION.max_joint_rates_rad_per_s;
+        bench.up_to = Some(1.1 * f64::from(limit));
     }),
 ];
 
 /// That a chopper which works keeps a braking motor's supply in range: the fault within a second, if there is one.
 pub fn brakes_with_a_chopper() -> Option<Fault> {
-    let mut bench = KnobBench::running();
+    let mut bench = KnobBench::running(HostKnob::running(dial(), None));
     bench.braking = BRAKING;
     (0..SETTINGS.rate_hz as u32).for_each(|_| bench.tick());
     bench.knob.state().fault().map(|(fault, _)| fault)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use palpate::device::drive::{Feed, VoltageFeed};
+    use palpate::device::{Device, Motor};
+    use palpate_sim::knob::{MOTOR, SEARCH, SUPPLY_V, TOLD_OF_SUPPLY, servo};
+    use palpate_sim::plant::Dial;
+
+    /// The knob with another motor, running.
+    fn with_motor(phase_ohm: f32, rpm_per_v: f32) -> HostKnob {
+        let Feed::Voltage(feed) = MOTOR.feeds[0] else { panic!("a bridge") };
+        let feed = VoltageFeed::three_phase(SUPPLY_V, phase_ohm, rpm_per_v, feed.current_at_full_a);
+        let motor = Motor::current_driven(feed.torque_constant_n_m_per_a, feed.current_at_full_a, 1.0);
+        let device = Box::leak(Box::new(Device { motors: [motor], feeds: [Feed::Voltage(feed)], ..MOTOR }));
+        let mut dial = dial();
+        (dial.motor.resistance, dial.motor.rpm_per_volt) = (f64::from(phase_ohm), f64::from(rpm_per_v));
+        let mut knob =
+            HostKnob::new(servo(device, SEARCH, TOLD_OF_SUPPLY), Dial::new(dial, f64::from(SETTINGS.rate_hz)));
+        knob.ticks(SEARCH.ticks() + 2_000);
+        knob
+    }
+
+    #[test]
+    fn the_hand_is_faster_than_the_speed_limit_against_a_motor_that_brakes_more_too() {
+        let row = KNOB.iter().find(|row| row.fault == Fault::Overspeed).expect("a row");
+        for (phase_ohm, rpm_per_v) in [(7.5, 80.0), (5.6, 40.0)] {
+            let found = row.plant_in(with_motor(phase_ohm, rpm_per_v));
+            assert!(row.is_as_stated(&found), "{rpm_per_v} rpm/V: {found:?}");
+        }
+    }
 }

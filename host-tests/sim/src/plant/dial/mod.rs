@@ -106,6 +106,11 @@ impl Fingers {
         Self { stiffness: 50.0, damping: 0.05, aim, rate: 0.0 }
     }
 
+    /// A hand that moves it at a rate, rad/s, against any motor of its size: 1 N·m costs it 0.2 rad/s.
+    pub const fn forcing(rate: f64) -> Self {
+        Self { stiffness: 0.0, damping: 5.0, aim: 0.0, rate }
+    }
+
     /// Fingers that turn it: as stiff as a light grip of 300 N/m on a rim of 20 mm.
     pub const fn turning(aim: f64, rate: f64) -> Self {
         Self { stiffness: 0.12, damping: 2e-3, aim, rate }
