@@ -145,16 +145,18 @@ fn figures(with: &Run, without: &Run) -> Vec<(&'static str, String)> {
     figures
 }
 
-/// The motor's torque at full duty and continuously, at most the feels' limit.
+/// The motor's torque at full duty; the knob's, at most its limit, at first and continuously; the torque that aligns it.
 fn motor() -> String {
     let full = MOTOR.motors[0].torque_at_full_n_m;
     let most = full.min(MOTOR.max_force_n * MOTOR.kinematics.radius_m);
     let continuous = most.min(full * PROTECTION.motors[0].continuous);
     format!(
-        "{} pole pairs, {:.0} mN·m, {:.0} continuous",
+        "{} pole pairs, {:.0} mN·m at full duty; the knob has {:.0}, {:.0} continuous; aligned with {:.0}",
         COMMUTATION.pole_pairs,
+        1e3 * f64::from(full),
         1e3 * f64::from(most),
-        1e3 * f64::from(continuous)
+        1e3 * f64::from(continuous),
+        1e3 * f64::from(SEARCH.torque_n_m)
     )
 }
 
