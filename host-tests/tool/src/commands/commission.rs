@@ -26,6 +26,8 @@ use std::time::{Duration, Instant};
 /// torque; a line silent for 0.1 s counts as a released key. With --emulator or --host the device, its hands and its
 /// faults (--plant) are simulated, and nothing is asked.
 ///
+/// Exit status 1: weighing contradicts the file's masses. The entries in doubt are left as they are.
+///
 /// For a knob (--device knob) the cogging of its motor is recorded while both are held; --out is the file that its
 /// image is built from.
 #[derive(Args, Debug)]
@@ -120,11 +122,18 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let head = format!("Measured by `palpate commission`, started from {name}.");
     std::fs::write(out, toml_of(&found, &head)?).with_context(|| format!("cannot write {}", out.display()))?;
     report(&own, &findings);
-    if let Some(weights) = weights {
-        println!("  {weights}");
-    }
+    let doubts = weights.map_or_else(Vec::new, |weights| {
+        println!("  {}", weights.line);
+        weights.doubts
+    });
     for sentence in begin_within(&found.file) {
         println!("  {sentence}");
+    }
+    if !doubts.is_empty() {
+        let saved = if arguments.keep { "; nothing is saved in the device's flash" } else { "" };
+        println!("written to {}, without the entries in doubt{saved}", out.display());
+        doubts.iter().for_each(|doubt| eprintln!("error: {doubt}"));
+        return Ok(ExitCode::from(1));
     }
     println!("written to {}", out.display());
     if arguments.keep {

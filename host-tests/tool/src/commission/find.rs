@@ -3,7 +3,7 @@
 use super::encoders::find_encoders;
 use super::motors::find_motors;
 use super::motors::most;
-use super::torques::find_torques;
+use super::torques::{Weights, find_torques};
 use super::{Finding, Lab, Zero};
 use anyhow::Context;
 use palpate::commission::{Calibration, JointCalibration};
@@ -12,11 +12,11 @@ use palpate_sim::devices::preset::Preset;
 use palpate_sim::devices::{DeviceFile, HomingEntry, OwnDevice};
 
 /// Measures a device and writes the results into its file. Entries within the uncertainty of the measurement do not
-/// change. The last of what it returns compares measured and modelled weights, in a line.
+/// change. The last of what it returns compares measured and modelled weights.
 ///
 /// # Errors
 /// An impossible result: a joint that moves no encoder, or two; a motor that moves no joint.
-pub fn find(lab: &mut Lab, own: &OwnDevice, by: Zero) -> anyhow::Result<(DeviceFile, Vec<Finding>, String)> {
+pub fn find(lab: &mut Lab, own: &OwnDevice, by: Zero) -> anyhow::Result<(DeviceFile, Vec<Finding>, Weights)> {
     let (mut file, mut findings) = find_mounting(lab, own, by)?;
     let weights = find_torques(lab, &mut file, own, middle(own)?, &mut findings)?;
     Ok((file, findings, weights))

@@ -34,5 +34,6 @@ pub use lab::{Lab, RATE, Zero};
 pub use motors::MOVED;
 pub use on_host::HostLine;
 pub use port::PortLine;
+pub use torques::Weights;
 pub use world::{Planted, PlantedFault};
 pub use world::{SimulatedHands, World};

@@ -4,6 +4,7 @@ use super::device::said;
 use super::encoders::angle;
 use super::{Finding, Lab};
 use anyhow::{Context, bail};
+use palpate::wire::Reading;
 use palpate_sim::devices::{DeviceFile, OwnDevice};
 
 /// Minimum motion of a joint, rad: many counts, and little for the person who holds the others.
@@ -65,7 +66,8 @@ fn find_motor(
                 bail!("joint {}: it moves by itself; support it against falling", file.joint[joint].name);
             }
             let output_byte = u8::try_from(output)?;
-            let found = grow(lab, output_byte, sign, (0.0, Growth::BRISK, most), |counts| moved(counts) > MOVED)?;
+            let found =
+                grow(lab, output_byte, sign, (0.0, Growth::BRISK, most), |reading| moved(reading.counts) > MOVED)?;
             lab.device.step(None)?;
             if found.is_some() {
                 return Ok((output, sign * towards > 0.0));
@@ -102,6 +104,8 @@ impl Growth {
     pub const FINE: Self = Self { least: 0.0003, share: 0.0 };
     /// The other way, from where something moves: it must come to rest before it has gone where the load is another.
     pub const BACK: Self = Self { least: 0.0005, share: 0.015 };
+    /// The same once it rests: slow, as the duty at the first motion is read.
+    pub const SINK: Self = Self { least: 0.0002, share: 0.005 };
 
     pub fn next(self, duty: f64) -> f64 {
         duty + self.least + self.share * duty
@@ -113,8 +117,8 @@ pub(super) fn duty(share: f64) -> i16 {
     (share.clamp(-1.0, 1.0) * 32_767.0).round() as i16
 }
 
-/// Lets an output's duty grow from a share to `most`, in the direction of `sign`, until `has_moved` says so of the
-/// counts. The share at which it did, and the counts; `None` if it never did. The motor is still driven.
+/// Lets an output's duty grow from a share to `most`, in the direction of `sign`, until `has_moved` says so of a
+/// reading. The share at which it did, and the reading; `None` if it never did. The motor is still driven.
 ///
 /// # Errors
 /// A line that broke, a key that nobody holds, a device that refuses.
@@ -123,15 +127,15 @@ pub(super) fn grow(
     output: u8,
     sign: f64,
     (from, growth, most): (f64, Growth, f64),
-    has_moved: impl Fn([i32; 3]) -> bool,
-) -> anyhow::Result<Option<(f64, [i32; 3])>> {
+    mut has_moved: impl FnMut(&Reading) -> bool,
+) -> anyhow::Result<Option<(f64, Reading)>> {
     let mut share = from;
     let mut tries = 0;
     while share < most {
         share = growth.next(share);
         let reading = lab.device.step(Some((output, duty(sign * share))))?;
-        if has_moved(reading.counts) {
-            return Ok(Some((share, reading.counts)));
+        if has_moved(&reading) {
+            return Ok(Some((share, reading)));
         }
         if reading.refusal != 0 {
             bail!("output {output}: the device stopped{}", said(&reading));

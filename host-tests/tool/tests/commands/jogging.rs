@@ -39,6 +39,34 @@ fn a_jog_moves_the_joint_on_its_output_until_a_limit_and_prints_how_far() -> std
 }
 
 #[test]
+fn masses_that_no_weighing_explains_are_not_written_and_end_with_a_status() -> std::io::Result<()> {
+    let folder = tempfile::tempdir()?;
+    let out = folder.path().join("found.toml");
+    let run = Command::new(env!("CARGO_BIN_EXE_palpate"))
+        .args(["commission", "--host", "--weigh", "--keep", "--plant", "weight:0", "--out"])
+        .arg(&out)
+        .output()?;
+    let [said, errors] = [run.stdout, run.stderr].map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
+    assert_eq!(run.status.code(), Some(1), "{said} {errors}");
+    assert!(errors.starts_with("error: the file's masses do not explain"), "{errors}");
+    assert!(said.contains("weights differ") && said.contains("nothing is saved in the device's flash"), "{said}");
+    let [file, shipped] = [
+        std::fs::read_to_string(&out)?,
+        palpate_sim::devices::named("woodenhaptics-2016").and_then(|device| device.file()).map_or_else(
+            String::new,
+            |file| {
+                let palpate_sim::devices::MechanismEntry::SerialArm { end_masses, .. } = file.mechanism else {
+                    panic!()
+                };
+                format!("end_masses = [{}, {}]", end_masses[0], end_masses[1])
+            },
+        ),
+    ];
+    assert!(file.contains(&shipped), "{shipped}: {file}");
+    Ok(())
+}
+
+#[test]
 fn a_script_may_watch_a_device_and_not_jog_it() -> std::io::Result<()> {
     for (what, message) in [(["--watch", "1"], "no-such-port"), (["--jog", "0"], "standard input is no terminal")] {
         let run = Command::new(env!("CARGO_BIN_EXE_palpate"))
