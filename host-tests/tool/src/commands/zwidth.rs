@@ -24,7 +24,8 @@ const WEAKEST: [f64; 3] = [0.0, 2.0, 8.0];
 /// Finds the stiffest and most damped wall of a device: a table, and a plot with the passive bound.
 ///
 /// The table is along z at the middle of the workspace (two joints: y, one: x); the weakest direction of the workspace
-/// follows. The last line is the value for `max_stiffness` in the device file: half of the limit with the rendering
+/// follows; then, along x, y and z, the maximum with the recommended rendering and the cause without which it would
+/// rise most: counts, delay or velocity estimator. The last line is the value for `max_stiffness` in the device file: half of the limit with the rendering
 /// recommended for the device, in the weakest direction.
 ///
 /// Simulated: the stiffest wall on which the probe comes to rest. Passive: up to there the wall gives out no energy,
@@ -113,6 +114,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     }
     write_whole(picture, plot(&slice, &limits).as_bytes())?;
     println!("plot: {}", picture.display());
+    let rate = summary::typical(&rates);
+    println!("recommended rendering at the middle of the workspace, {} kHz:", rate / 1_000.0);
+    summary::axes(device, rate).iter().for_each(|line| println!("{line}"));
     println!("{}", summary::answer(device, &rates));
     Ok(ExitCode::SUCCESS)
 }

@@ -2,6 +2,7 @@
 
 use super::sweeping::{best, sweep_with_bar};
 use crate::devices::ShippedDevice;
+use palpate::device::VelocityMethod;
 use palpate::servo::recommended::Recommended;
 use palpate_sim::zwidth::{Loop, Slice, SoftWall, in_words, max_stiffness};
 
@@ -54,14 +55,13 @@ pub fn print(devices: &[&ShippedDevice], rates: &[f64], like: Loop, soft: Option
 /// as the entry of the device file: the simulation assumes what the file does not state. A stiffer wall than 10,000 N/m
 /// is not looked at in `palpate feel --clean` either.
 pub(super) fn answer(device: &ShippedDevice, rates: &[f64]) -> String {
-    let Recommended { settings, rendering } = device.recommended();
-    let rate = rates.iter().copied().find(|rate| *rate == 4_000.0).or(rates.first().copied()).unwrap_or(4_000.0);
-    let corner = f64::from(settings.velocity_corner_hz);
-    let servo = Loop { rate, delay_periods: DELAY, velocity: rendering.velocity, corner, ease: rendering.ease };
+    let Recommended { settings, .. } = device.recommended();
+    let rate = typical(rates);
+    let (servo, damping) = recommended(device, rate);
+    let corner = servo.corner;
     let (place, slice) =
         weakest(device).unwrap_or_else(|| ("in the middle of the workspace".to_owned(), Slice::of(device)));
-    let damping = settings.damping_n_s_per_m;
-    let most = max_stiffness(&slice, damping.into(), &servo);
+    let most = max_stiffness(&slice, damping, &servo);
     let entry = (10.0 * (0.05 * most).floor()).min(10_000.0);
     let limit = f64::from(device.preset.limits().stiffness);
     let recommended = settings.stiffness_n_per_m;
@@ -76,6 +76,49 @@ pub(super) fn answer(device: &ShippedDevice, rates: &[f64]) -> String {
         margins[0],
         margins[1]
     )
+}
+
+/// The maximum stiffness with the rendering recommended for a device along each axis at the middle of its workspace, and
+/// the cause that limits it most, a line each.
+pub(super) fn axes(device: &ShippedDevice, rate: f64) -> Vec<String> {
+    let (servo, damping) = recommended(device, rate);
+    let axes = ["x", "y", "z"].into_iter().enumerate().take(device.plant.mechanism(0.0).joints());
+    let each = axes.filter_map(|(axis, name)| {
+        let mut direction = [0.0; 3];
+        direction[axis] = 1.0;
+        let slice = Slice::along(device, [0.0; 3], direction)?;
+        let most = in_words(&slice, max_stiffness(&slice, damping, &servo));
+        Some(format!("  {name}  {:>6} N/m, limited by {}", most, limited_by(&slice, damping, &servo)))
+    });
+    each.collect()
+}
+
+/// The one of counts, delay and velocity estimator without which a wall may be stiffest.
+fn limited_by(slice: &Slice, damping: f64, servo: &Loop) -> &'static str {
+    let without = [
+        ("counts", Slice { resolution: FINE * slice.resolution, ..*slice }, *servo),
+        ("delay", Slice { time_constant: 0.0, ..*slice }, Loop { delay_periods: 0.0, ..*servo }),
+        // The difference of two ticks.
+        ("estimator", *slice, Loop { velocity: VelocityMethod::LowPass, corner: servo.rate, ..*servo }),
+    ];
+    let found = without.map(|(cause, slice, servo)| (cause, max_stiffness(&slice, damping, &servo)));
+    found.into_iter().max_by(|(_, one), (_, other)| one.total_cmp(other)).map_or("nothing", |(cause, _)| cause)
+}
+
+/// A count so small that it limits nothing, as a fraction of the real one.
+const FINE: f64 = 1e-3;
+
+/// The recommended loop of a device at a rate, Hz, behind a period, and its damping, N·s/m.
+fn recommended(device: &ShippedDevice, rate: f64) -> (Loop, f64) {
+    let Recommended { settings, rendering } = device.recommended();
+    let corner = f64::from(settings.velocity_corner_hz);
+    let servo = Loop { rate, delay_periods: DELAY, velocity: rendering.velocity, corner, ease: rendering.ease };
+    (servo, settings.damping_n_s_per_m.into())
+}
+
+/// 4 kHz or the first of several rates, Hz.
+pub(super) fn typical(rates: &[f64]) -> f64 {
+    rates.iter().copied().find(|rate| *rate == 4_000.0).or(rates.first().copied()).unwrap_or(4_000.0)
 }
 
 /// Where and along what an undamped wall of a device is weakest, and its slice there.
@@ -115,6 +158,23 @@ mod tests {
     use super::*;
     use crate::devices::own_device;
     use palpate_sim::devices::{OwnDevice, named};
+
+    #[test]
+    fn each_axis_has_its_limit_and_cause() {
+        let slice = Slice::of(named("woodenhaptics-2016").expect("it ships"));
+        let (servo, damping) = recommended(named("woodenhaptics-2016").expect("it ships"), 4_000.0);
+        // A count of 5 mm, and a delay of ten periods behind fine counts.
+        let coarse = Slice { resolution: 5e-3, ..slice };
+        assert_eq!(limited_by(&coarse, damping, &servo), "counts");
+        let fine = Slice { resolution: 1e-8, ..slice };
+        assert_eq!(limited_by(&fine, damping, &Loop { delay_periods: 10.0, ..servo }), "delay");
+        for (name, rows) in [("woodenhaptics-2016", 3), ("haply-2diy-v3", 2), ("hapkit", 1)] {
+            let lines = axes(named(name).expect("it ships"), 4_000.0);
+            println!("{name}: {lines:?}");
+            assert_eq!(lines.len(), rows, "{lines:?}");
+            assert!(lines.iter().all(|line| line.contains(" N/m, limited by ")), "{lines:?}");
+        }
+    }
 
     #[test]
     fn the_entry_holds_what_is_recommended_and_falls_with_coarser_encoders() {
