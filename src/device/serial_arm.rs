@@ -28,6 +28,37 @@ use crate::math::{Vec3, sin_cos, vec3};
 /// let pose = arm.pose([0.0; 3]).expect("within reach");
 /// assert!((pose.position - vec3(0.25, 0.0, 0.28)).length() < 1e-6);
 /// ```
+///
+/// An elbow motor that rides on the first link turns the second one by the angle `e` between them, `c = b + e`, and its
+/// encoder reads `e`. Such an arm is another mechanism, by the chain rule; its torques follow from the Jacobian:
+///
+/// ```
+/// use palpate::device::{Kinematics, ProbePose, SerialArm};
+/// # use palpate::device::presets::WOODEN_HAPTICS_2016;
+///
+/// #[derive(Clone, Copy)]
+/// struct ElbowOnFirstLink(SerialArm);
+///
+/// impl Kinematics<3> for ElbowOnFirstLink {
+///     fn pose(&self, angles: [f32; 3]) -> Option<ProbePose<3>> {
+///         self.held_pose(angles).map(|(pose, _)| pose)
+///     }
+///
+///     fn held_pose(&self, [a, b, e]: [f32; 3]) -> Option<(ProbePose<3>, [f32; 3])> {
+///         let (pose, [table, first, second]) = self.0.held_pose([a, b, b + e])?;
+///         let [by_a, by_b, by_c] = pose.jacobian;
+///         // The first motor turns both links.
+///         Some((ProbePose { jacobian: [by_a, by_b + by_c, by_c], ..pose }, [table, first + second, second]))
+///     }
+/// }
+///
+/// let arm = ElbowOnFirstLink(WOODEN_HAPTICS_2016.kinematics);
+/// let (at, step) = ([0.2, 0.3, 0.1], 1e-3);
+/// let pose = arm.pose(at).expect("within reach");
+/// let moved = arm.pose([at[0], at[1] + step, at[2]]).expect("within reach");
+/// // Second derivatives are at most the links' lengths, 0.5 m together.
+/// assert!(((moved.position - pose.position) / step - pose.jacobian[1]).length() < 0.5 * step);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SerialArm {
     /// Height of the first link's axis, `A`, metres.
