@@ -39,8 +39,8 @@ export function show(view, body, isShaped = false) {
   set("force", `${newtons.toFixed(2)} N${view.held ? (view.slips ? ", slipping" : ", sticking") : ""}`);
   // A tool's step is of the pair.
   set("gain", isShaped ? "–" : view.gain.toFixed(4));
-  // Several bodies share a tick.
-  set("evaluations", body.called ? "–" : String(view.evaluations));
+  // Several bodies share a tick, and those of one that gives way are not counted.
+  set("evaluations", body.called || !view.evaluations ? "–" : String(view.evaluations));
   set("phase", view.fault ? `${PHASES[view.phase]} ${view.fault}` : PHASES[view.phase]);
   by("caption").innerHTML = `<span>${caption(view, body, millimetres, newtons, touching, isShaped)}</span>`;
 }
