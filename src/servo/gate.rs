@@ -37,28 +37,14 @@ pub fn gate<const JOINTS: usize>(
     if sum <= 1.0 {
         return Ok((fractions.map(Duty::within_scale), 1.0));
     }
-    Ok(saturate(motors, felt, weight))
-}
-
-/// The duties of gravity compensation plus the scaled contact torques, and the scale: the largest that the motors'
-/// remaining range permits.
-#[inline]
-fn saturate<const JOINTS: usize>(
-    motors: &[Motor; JOINTS],
-    felt: [f32; JOINTS],
-    weight: [f32; JOINTS],
-) -> ([Duty; JOINTS], f32) {
-    let fractions =
-        core::array::from_fn(|joint| [felt[joint], weight[joint]].map(|torque| motors[joint].fraction(torque)));
-    // A weight beyond the scale shows in the remaining range, if there is a contact torque.
-    let scale = fractions.into_iter().fold(1.0, least_scale);
-    if scale < 0.0 { relieve(fractions) } else { scaled(fractions, scale) }
-}
-
-/// The duties of each joint's requested fraction, scaled, and the carried one.
-#[inline(always)]
-fn scaled<const JOINTS: usize>(fractions: [[f32; 2]; JOINTS], scale: f32) -> ([Duty; JOINTS], f32) {
-    (fractions.map(|[asked, carried]| Duty::from_fraction(asked * scale + carried)), scale)
+    let limits = core::array::from_fn(|joint| motors[joint].torque_at_full_n_m.abs());
+    let (weight, scale) = fit(felt, weight, limits);
+    let mut duties = [Duty::ZERO; JOINTS];
+    for ((duty, motor), (felt, weight)) in duties.iter_mut().zip(motors).zip(felt.into_iter().zip(weight)) {
+        // Beyond full scale by roundings at most, which the duty's own rounding takes back.
+        *duty = Duty::within_scale(motor.fraction(felt * scale + weight));
+    }
+    Ok((duties, scale))
 }
 
 /// As [`gate`], where each motor may be given only so much torque, N·m: full scale at most.
@@ -73,15 +59,7 @@ pub fn gate_within<const JOINTS: usize>(
     weight: [f32; JOINTS],
     limits: [f32; JOINTS],
 ) -> Result<([Duty; JOINTS], f32), Fault> {
-    let is_heavy = weight.iter().zip(&limits).any(|(weight, limit)| weight.abs() > *limit);
-    let weight = if is_heavy { relieved(weight, &limits) } else { weight };
-    let mut scale = 1.0;
-    for ((felt, weight), limit) in felt.into_iter().zip(weight).zip(limits) {
-        let torque = felt * scale + weight;
-        if torque.abs() > limit {
-            scale = (if torque > 0.0 { limit - weight } else { -limit - weight }) / felt;
-        }
-    }
+    let (weight, scale) = fit(felt, weight, limits);
     let mut duties = [Duty::ZERO; JOINTS];
     let mut sum = 0.0;
     for ((duty, motor), (felt, weight)) in duties.iter_mut().zip(motors).zip(felt.into_iter().zip(weight)) {
@@ -95,6 +73,23 @@ pub fn gate_within<const JOINTS: usize>(
     if drives { Ok((duties, scale)) } else { Ok(([Duty::ZERO; JOINTS], 0.0)) }
 }
 
+/// Torques within these limits, N·m: the gravity compensation, and the scale of the contact torques, the largest that the
+/// remaining range permits. A joint within its limit at full scale stays within at any.
+#[inline(always)]
+fn fit<const JOINTS: usize>(felt: [f32; JOINTS], weight: [f32; JOINTS], limits: [f32; JOINTS]) -> ([f32; JOINTS], f32) {
+    let is_heavy = weight.iter().zip(&limits).any(|(weight, limit)| weight.abs() > *limit);
+    let weight = if is_heavy { relieved(weight, &limits) } else { weight };
+    let mut scale = 1.0;
+    for ((felt, weight), limit) in felt.into_iter().zip(weight).zip(limits) {
+        let torque = felt + weight;
+        if torque.abs() > limit {
+            let most = (if torque > 0.0 { limit - weight } else { -limit - weight }) / felt;
+            scale = if most < scale { most } else { scale };
+        }
+    }
+    (weight, scale)
+}
+
 /// A gravity compensation beyond the motors' limits, scaled as a whole to fit.
 #[cold]
 fn relieved<const JOINTS: usize>(weight: [f32; JOINTS], limits: &[f32; JOINTS]) -> [f32; JOINTS] {
@@ -106,30 +101,6 @@ fn relieved<const JOINTS: usize>(weight: [f32; JOINTS], limits: &[f32; JOINTS]) 
     // Short of the limit by more than rounding errors, so that the range left for the force is never negative.
     let scale = 0.999_999 / heaviest;
     weight.map(|weight| weight * scale)
-}
-
-/// Scales a gravity compensation beyond the motors' range to what they can give. Each joint has the requested torque
-/// and the carried one.
-#[cold]
-#[inline(never)]
-fn relieve<const JOINTS: usize>(mut fractions: [[f32; 2]; JOINTS]) -> ([Duty; JOINTS], f32) {
-    let heaviest = fractions.iter().fold(1.0, |most: f32, [_, carried]| carried.abs().max(most));
-    let mut scale = 1.0;
-    for fractions in fractions.iter_mut() {
-        fractions[1] /= heaviest;
-        scale = least_scale(scale, *fractions);
-    }
-    // Below 0 by rounding.
-    scaled(fractions, if scale > 0.0 { scale } else { 0.0 })
-}
-
-/// The scale of the contact torques, `scale` at most, for a joint's fraction `asked` to fit in the range left by
-/// gravity compensation, `carried`; below 0 if there is none.
-#[inline(always)]
-fn least_scale(scale: f32, [asked, carried]: [f32; 2]) -> f32 {
-    let left = if asked > 0.0 { 1.0 - carried } else { 1.0 + carried };
-    let size = asked.abs();
-    if size * scale > left { left / size } else { scale }
 }
 
 #[cfg(test)]
@@ -228,9 +199,32 @@ mod tests {
     }
 
     #[test]
+    fn a_motor_at_full_scale_never_turns_round() {
+        let mut seed = 1_u32;
+        let mut draw = |size: f32| {
+            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (seed >> 8) as f32 / (1 << 23) as f32 * size - size
+        };
+        for round in 0..1_000_000 {
+            let size = [1.0, 4.0, 1e3, 1e9][round % 4];
+            let motors = [(); 3].map(|()| Motor { torque_at_full_n_m: draw(3.0) });
+            let felt = motors.map(|motor| motor.torque_at_full_n_m * draw(size));
+            let weight = motors.map(|motor| motor.torque_at_full_n_m * draw(1.0));
+            let (duties, scale) = gate(true, &motors, felt, weight).unwrap();
+            for (joint, duty) in duties.iter().enumerate() {
+                let wanted = (felt[joint] * scale + weight[joint]) / motors[joint].torque_at_full_n_m;
+                // Half a step of duty, and roundings of numbers near 1.
+                assert!((duty.fraction() - wanted).abs() < 1.7e-5, "{duty:?} {wanted}");
+            }
+        }
+    }
+
+    #[test]
     fn a_weight_that_no_motor_carries_stops_at_full_scale_and_is_not_added_to() {
         let (duties, scale) = gate(true, &MOTORS, [0.5, 0.5, 0.0], [2.0, 1.0, 0.0]).unwrap();
-        assert_eq!((duties, scale), ([1.0, 0.5, 0.0].map(Duty::from_fraction), 0.0));
+        assert_eq!(duties, [1.0, 0.5, 0.0].map(Duty::from_fraction));
+        // The millionth that keeps the range from being negative, of half of full scale.
+        assert!((0.0..=2.1e-6).contains(&scale), "{scale}");
     }
 
     #[test]
