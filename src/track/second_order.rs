@@ -98,13 +98,22 @@ impl Model {
         -self.gradient[0] * w_u - self.gradient[1] * w_v
     }
 
+    /// The model after a step.
+    #[inline(always)]
+    fn value(&self, [w_u, w_v]: [f32; 2]) -> f32 {
+        let [a, b, c] = self.hessian;
+        let [along_u, along_v] = self.gradient;
+        w_u * (along_u + 0.5 * a * w_u + b * w_v) + w_v * (along_v + 0.5 * c * w_v)
+    }
+
     /// The minimiser where the free one, at `to`, is not inside: on a side that this violates.
     #[inline(always)]
     fn on_border(&self, from: [f32; 2], to: [f32; 2]) -> Plan {
         let [a, b, c] = self.hessian;
         let [along_u, along_v] = self.gradient;
         // Most often one of the two is violated; bits tell that the other is not.
-        let target = to.map(|x| if x.to_bits() <= 1.0_f32.to_bits() { x } else { saturate(x, 0.0, 1.0) });
+        let cut = |x: f32| if border::is_within(x) { x } else { saturate(x, 0.0, 1.0) };
+        let target = [cut(to[0]), cut(to[1])];
         // On a side of u, and of v: each a step of one parameter, cut at its ends.
         let side_u = || {
             let slope = along_v + b * (target[0] - from[0]);
@@ -120,10 +129,7 @@ impl Model {
             (false, true) => side_v(),
             (true, true) => {
                 let (on_u, on_v) = (side_u(), side_v());
-                let value = |[u, v]: [f32; 2]| {
-                    let [w_u, w_v] = [u - from[0], v - from[1]];
-                    w_u * (along_u + 0.5 * a * w_u + b * w_v) + w_v * (along_v + 0.5 * c * w_v)
-                };
+                let value = |[u, v]: [f32; 2]| self.value([u - from[0], v - from[1]]);
                 if value(on_u) <= value(on_v) { on_u } else { on_v }
             }
         };
