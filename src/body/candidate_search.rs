@@ -116,7 +116,7 @@ impl CandidateSearch {
     #[inline]
     pub(super) fn see<D: Displacement>(&self, patch: Displaced<'_, D>, probe: Vec3) -> DistanceDerivatives {
         let curved = patch.evaluate_apart(self.trial);
-        DistanceDerivatives::new(&curved, curved.surface.point - probe)
+        DistanceDerivatives::new(&curved.surface, &curved.second, probe)
     }
 
     /// The choice of the next parameters from what was seen at the last ones.
@@ -173,7 +173,7 @@ impl CandidateSearch {
         let (at, half_squared) = (self.trial, seen.half_squared);
         if half_squared < self.half_squared {
             let pole = Pole::nearest(poles, at, patch.rest, size);
-            let model = Model::new(pole.map_or(seen, |pole| seen.near_pole(pole)));
+            let model = Model::new(&seen, pole);
             let [lower, upper] = self.candidate.rectangle();
             let range = [[lower[0] - at[0], lower[1] - at[1]], [upper[0] - at[0], upper[1] - at[1]]];
             if known < half_squared {

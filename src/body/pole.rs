@@ -78,18 +78,18 @@ impl Pole {
 
     /// The tangent that leads away from the pole, at a point of its face.
     pub(super) fn meridian(&self, at: &SurfacePoint) -> Vec3 {
-        [at.tangent_u, at.tangent_v][self.axis()] * self.inward
+        (if self.is_along_v { at.tangent_v } else { at.tangent_u }) * self.inward
     }
 
     /// Whether the parameter around the pole is only rounding at the point.
     #[inline]
-    fn is_at_pole(&self) -> bool {
+    pub(super) fn is_at_pole(&self) -> bool {
         self.away <= self.near
     }
 
     /// Correction of the mixed second derivative of `φ` for the gradient of `φ`.
     pub(super) fn mixed(&self, gradient: [f32; 2]) -> f32 {
-        if self.is_at_pole() { 0.0 } else { -self.inward * gradient[1 - self.axis()] / self.away }
+        if self.is_at_pole() { 0.0 } else { -self.inward * self.turned(gradient)[0] / self.away }
     }
 
     /// Change of the range of `η` for a change of one across: the range is that of the parameter, which is `η w / (w +
@@ -103,30 +103,32 @@ impl Pole {
         self.is_along_v as usize
     }
 
+    /// Numbers of `u` and `v` as those around the pole and away from it, and back.
+    #[inline(always)]
+    pub(super) const fn turned(&self, [u, v]: [f32; 2]) -> [f32; 2] {
+        if self.is_along_v { [u, v] } else { [v, u] }
+    }
+
     /// The change of the parameters for a step `(η, ω)`. A step that ends at the pole keeps its `η`: the parameter
     /// there does not matter.
     pub(super) fn unrolled(&self, change: [f32; 2]) -> [f32; 2] {
-        let left = self.away + self.inward * change[self.axis()];
-        let mut unrolled = change;
-        if !self.is_at_pole() && left > self.near {
-            unrolled[1 - self.axis()] *= self.away / left;
-        }
-        unrolled
+        let [beside, out] = self.turned(change);
+        let left = self.away + self.inward * out;
+        let is_around = !self.is_at_pole() && left > self.near;
+        self.turned([if is_around { beside * (self.away / left) } else { beside }, out])
     }
 
     /// Half of a step that is given by its change of the parameters, in the same direction in `(η, ω)`.
     pub(super) fn halved(&self, change: [f32; 2]) -> [f32; 2] {
-        let left = self.away + self.inward * change[self.axis()];
-        let mut half = change.map(|change| 0.5 * change);
-        if !self.is_at_pole() && left > self.near {
-            half[1 - self.axis()] *= left / self.away;
-        }
-        self.unrolled(half)
+        let [beside, out] = self.turned(change);
+        let left = self.away + self.inward * out;
+        let is_around = !self.is_at_pole() && left > self.near;
+        let half = if is_around { 0.5 * beside * (left / self.away) } else { 0.5 * beside };
+        self.unrolled(self.turned([half, 0.5 * out]))
     }
 
-    /// At the pole: the step into the face, and its predicted gain. `None` away from the pole, or if no slope into the
-    /// face is downhill. `newton` is the Hessian, `form` the first fundamental form, `[uu, uv, vv]`; `range` is the
-    /// range of the changes.
+    /// At the pole: the step into the face, and its predicted gain. `None` if no slope into the face is downhill.
+    /// `newton` is the Hessian, `form` the first fundamental form, `[uu, uv, vv]`; `range` is the range of the changes.
     ///
     /// Here the slope is a function of `y` alone. The step goes straight on, unless the slope at the end of the range
     /// where it falls should be twice as steep: a straight line overshoots a cosine.
@@ -137,9 +139,6 @@ impl Pole {
         form: [f32; 3],
         range: [[f32; 2]; 2],
     ) -> Option<([f32; 2], f32)> {
-        if !self.is_at_pole() {
-            return None;
-        }
         let (across, along) = (self.axis(), 1 - self.axis());
         let (slope, turn) = (self.inward * gradient[across], self.inward * (newton[1] - form[1]));
         let reach = range[usize::from(turn < 0.0)][along];

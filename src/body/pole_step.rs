@@ -9,7 +9,7 @@ use super::table::Body;
 use super::tracker::{BodyStep, BodyWitness, StepLength};
 use crate::field::Displacement;
 use crate::math::{Vec3, saturate, sqrt_from_above};
-use crate::patch::{CurvedPoint, SplinePatch};
+use crate::patch::SplinePatch;
 use crate::track::{Outcome, Witness, mode_at};
 
 impl<D: Displacement> Body<'_, D> {
@@ -18,19 +18,17 @@ impl<D: Displacement> Body<'_, D> {
     /// not nearer is rejected, and the next one is certified. Returns whether the step was tried.
     #[inline(never)]
     pub(super) fn step_near_pole(&self, face: &Face, state: &mut BodyWitness, step: &mut BodyStep) -> bool {
-        let Witness { parameters, surface, second, halvings, .. } = state.witness;
         let poles = face.poles();
-        if halvings != 0 || poles == 0 {
+        if state.witness.halvings != 0 || poles == 0 {
             return false;
         }
-        let at = CurvedPoint { surface, second };
-        let Some(plan) = PoleStep::new(poles, &face.patch, parameters, &at, state.probe, self.size) else {
+        let Some(plan) = PoleStep::new(poles, &face.patch, &state.witness, state.probe, self.size) else {
             return self.leave_pole(face, state, step);
         };
         let reached = self.patch(face).evaluate_apart(plan.parameters);
         step.evaluations += 1;
         step.length = StepLength::NearPole;
-        let before = (surface.point - state.probe).length_squared();
+        let before = (state.witness.surface.point - state.probe).length_squared();
         let is_nearer = (reached.surface.point - state.probe).length_squared() <= before - 2.0 * MIN_FALL * plan.fall;
         if is_nearer {
             state.witness.rest_at(plan.parameters, &reached);
@@ -93,12 +91,13 @@ struct PoleStep {
 impl PoleStep {
     /// The step from a point, in the coordinates around the nearest pole. `None` if it would be rounding, or if there
     /// is no pole.
-    #[inline(never)]
-    fn new(poles: u8, patch: &SplinePatch, at: [f32; 2], curved: &CurvedPoint, probe: Vec3, size: f32) -> Option<Self> {
+    #[inline(always)]
+    fn new(poles: u8, patch: &SplinePatch, witness: &Witness, probe: Vec3, size: f32) -> Option<Self> {
+        let at = witness.parameters;
         let pole = Pole::nearest(poles, at, patch, size)?;
-        let seen = DistanceDerivatives::new(curved, curved.surface.point - probe);
+        let seen = DistanceDerivatives::new(&witness.surface, &witness.second, probe);
         let range = [at.map(|parameter| -parameter), at.map(|parameter| 1.0 - parameter)];
-        let model = Model::new(seen.near_pole(pole));
+        let model = Model::new(&seen, Some(pole));
         let (change, fall) = model.step(&seen, Some(pole), range);
         let is_worth_it = -fall > worth(2.0 * seen.half_squared, size);
         if !is_worth_it {

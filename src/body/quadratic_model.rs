@@ -7,7 +7,7 @@
 
 use super::pole::{Pole, bend_of};
 use crate::math::{Vec3, saturate};
-use crate::patch::CurvedPoint;
+use crate::patch::{SecondDerivatives, SurfacePoint};
 use crate::track::shifted;
 
 /// A determinant below this fraction of the product of the diagonal is rounding.
@@ -26,19 +26,13 @@ impl DistanceDerivatives {
     pub const NONE: Self = Self { half_squared: 0.0, gradient: [0.0; 2], form: [0.0; 3], newton: [0.0; 3] };
 
     #[inline]
-    pub(super) fn new(CurvedPoint { surface, second }: &CurvedPoint, difference: Vec3) -> Self {
-        let (f_u, f_v) = (surface.tangent_u, surface.tangent_v);
+    pub(super) fn new(surface: &SurfacePoint, second: &SecondDerivatives, probe: Vec3) -> Self {
+        let (f_u, f_v, difference) = (surface.tangent_u, surface.tangent_v, surface.point - probe);
         let form = [f_u.dot(f_u), f_u.dot(f_v), f_v.dot(f_v)];
         let bend = second.along(difference);
         let newton = [form[0] + bend[0], form[1] + bend[1], form[2] + bend[2]];
         let gradient = [difference.dot(f_u), difference.dot(f_v)];
         Self { half_squared: 0.5 * difference.length_squared(), gradient, form, newton }
-    }
-
-    /// The same in the coordinates of [`super::pole`].
-    pub(super) fn near_pole(mut self, pole: Pole) -> Self {
-        self.newton[1] += pole.mixed(self.gradient);
-        self
     }
 }
 
@@ -53,7 +47,13 @@ pub(super) struct Model {
 }
 
 impl Model {
-    pub(super) fn new(DistanceDerivatives { gradient, form, newton, .. }: DistanceDerivatives) -> Self {
+    /// At a point, beside a pole in the coordinates of [`super::pole`].
+    #[inline(always)]
+    pub(super) fn new(
+        &DistanceDerivatives { gradient, form, newton: [uu, uv, vv], .. }: &DistanceDerivatives,
+        pole: Option<Pole>,
+    ) -> Self {
+        let newton = [uu, pole.map_or(uv, |pole| uv + pole.mixed(gradient)), vv];
         let is_newton = is_positive_definite(newton);
         let hessian = if is_newton { newton } else { Self::stand_in(form, newton) };
         Self { gradient, hessian, is_newton }
@@ -81,10 +81,13 @@ impl Model {
     #[inline(always)]
     pub(super) fn step(&self, seen: &DistanceDerivatives, pole: Option<Pole>, range: [[f32; 2]; 2]) -> ([f32; 2], f32) {
         let Some(pole) = pole else { return self.minimiser(range) };
-        pole.out_of(seen.gradient, seen.newton, seen.form, range).unwrap_or_else(|| {
-            let (change, fall) = self.minimiser_near_pole(&pole, range);
-            (pole.unrolled(change), fall)
-        })
+        if pole.is_at_pole()
+            && let Some(step) = pole.out_of(seen.gradient, seen.newton, seen.form, range)
+        {
+            return step;
+        }
+        let (change, fall) = self.minimiser_near_pole(&pole, range);
+        (pole.unrolled(change), fall)
     }
 
     /// At a rest where `H` is not positive definite: the step to the minimum over `range` of the quadratic itself along
@@ -173,33 +176,31 @@ impl Model {
     #[inline(never)]
     fn minimiser_near_pole(&self, pole: &Pole, [lower, upper]: [[f32; 2]; 2]) -> ([f32; 2], f32) {
         let ([a, b, c], spread) = (self.hessian, pole.spread());
-        let (across, along) = (pole.axis(), 1 - pole.axis());
-        let diagonal = [a, c];
-        let step = |beside: f32, out: f32| if across == 0 { (out, beside) } else { (beside, out) };
         let [p, q] = self.gradient;
         let determinant = a * c - b * b;
         let free = [(b * q - c * p) / determinant, (b * p - a * q) / determinant];
-        let (beside, out) = (free[along], free[across]);
+        let [[left, nearest], [right, farthest]] = [lower, upper].map(|ends| pole.turned(ends));
+        let ([slope_beside, slope_out], [bend_beside, bend_out]) = (pole.turned(self.gradient), pole.turned([a, c]));
+        let [beside, out] = pole.turned(free);
         let width = 1.0 + spread * out;
-        let is_inside = out >= lower[across] && out <= upper[across];
-        if determinant > 0.0 && is_inside && beside >= lower[along] * width && beside <= upper[along] * width {
+        let is_beyond = [out < nearest, out > farthest, beside < left * width, beside > right * width];
+        // As in `minimiser`: a convex model falls all the way to its free minimiser.
+        let is_asked = if determinant > 0.0 { is_beyond } else { [true; 4] };
+        if is_asked == [false; 4] {
             return (free, self.value(free));
         }
         let mut best = ([0.0; 2], 0.0);
-        for out in [lower[across], upper[across]] {
+        for (out, _) in [(nearest, is_asked[0]), (farthest, is_asked[1])].into_iter().filter(|side| side.1) {
             let width = 1.0 + spread * out;
-            let slope = self.gradient[along] + b * out;
-            let beside = minimiser_on_line(slope, diagonal[along], [lower[along] * width, upper[along] * width]);
-            let (u, v) = step(beside, out);
-            self.consider_here(u, v, &mut best);
+            let beside = minimiser_on_line(slope_beside + b * out, bend_beside, [left * width, right * width]);
+            self.consider_here(pole.turned([beside, out]), &mut best);
         }
-        for end in [lower[along], upper[along]] {
+        for (end, _) in [(left, is_asked[2]), (right, is_asked[3])].into_iter().filter(|side| side.1) {
             let lean = end * spread;
-            let [beside, out] = [self.gradient[along] + diagonal[along] * end, self.gradient[across] + b * end];
-            let bend = lean * (diagonal[along] * lean + b + b) + diagonal[across];
-            let out = minimiser_on_line(out + lean * beside, bend, [lower[across], upper[across]]);
-            let (u, v) = step(end + lean * out, out);
-            self.consider_here(u, v, &mut best);
+            let slope = slope_out + b * end + lean * (slope_beside + bend_beside * end);
+            let bend = lean * (bend_beside * lean + b + b) + bend_out;
+            let out = minimiser_on_line(slope, bend, [nearest, farthest]);
+            self.consider_here(pole.turned([end + lean * out, out]), &mut best);
         }
         best
     }
@@ -207,15 +208,15 @@ impl Model {
     /// Not inlined four times: flash is scarce, and the search is not in a hurry.
     #[inline(never)]
     fn consider(&self, u: f32, v: f32, best: &mut ([f32; 2], f32)) {
-        self.consider_here(u, v, best);
+        self.consider_here([u, v], best);
     }
 
-    /// Near a pole, where one tick asks all four sides.
+    /// Near a pole, where a tick asks.
     #[inline(always)]
-    fn consider_here(&self, u: f32, v: f32, best: &mut ([f32; 2], f32)) {
-        let value = self.value([u, v]);
+    fn consider_here(&self, change: [f32; 2], best: &mut ([f32; 2], f32)) {
+        let value = self.value(change);
         if value < best.1 {
-            *best = ([u, v], value);
+            *best = (change, value);
         }
     }
 
@@ -243,6 +244,35 @@ fn is_positive_definite([a, b, c]: [f32; 3]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// The wedge of a pole at `u = 0` or `v = 1`, against a grid that contains its corners and sides.
+    #[test]
+    fn the_minimiser_near_a_pole_is_the_least_on_its_wedge() {
+        let patch = crate::patch::SplineTable::UNIT_SQUARE.checked_in_body();
+        let at = [0.25, 0.375];
+        let range = [at.map(|parameter| -parameter), at.map(|parameter| 1.0 - parameter)];
+        for (poles, hessian) in [1_u8, 8]
+            .into_iter()
+            .flat_map(|poles| [[2.0, 0.5, 1.0], [1.0, -0.8, 1.5], [0.5, 0.0, 4.0]].map(|hessian| (poles, hessian)))
+        {
+            let pole = Pole::nearest(poles, at, &patch, 1.0).unwrap();
+            let [lower, upper] = range.map(|ends| pole.turned(ends));
+            for turn in 0..24 {
+                let (sine, cosine) = crate::math::sin_cos(turn as f32 * core::f32::consts::TAU / 24.0);
+                let model = Model { gradient: [1.5 * cosine, sine], hessian, is_newton: true };
+                let (change, fall) = model.minimiser_near_pole(&pole, range);
+                assert!((model.value(change) - fall).abs() < 1e-6);
+                let least = (0..=64).flat_map(|i| (0..=64).map(move |j| (i, j))).fold(0.0_f32, |least, (i, j)| {
+                    let along = |axis: usize, step: i32| lower[axis] + (upper[axis] - lower[axis]) * step as f32 / 64.0;
+                    let out = along(1, i);
+                    let beside = along(0, j) * (1.0 + pole.spread() * out);
+                    least.min(model.value(pole.turned([beside, out])))
+                });
+                // Rounding of values below 8, and a grid's distance from a minimum between its points.
+                assert!(fall <= least + 4.0 * f32::EPSILON && fall >= least - 2e-3, "{model:?}: {fall} {least}");
+            }
+        }
+    }
 
     /// Against the minimum of a grid that contains the minimiser's corners and sides.
     #[test]
