@@ -6,7 +6,7 @@ use super::feature::{Edge, EdgeKind, Face, Side};
 use super::table::Body;
 use super::tracker::BodyWitness;
 use crate::field::{Displaced, Displacement};
-use crate::math::Vec3;
+use crate::math::{Vec3, vec3};
 use crate::patch::{Patch as _, SecondDerivativeBounds};
 use crate::track::BoundaryMode;
 
@@ -46,18 +46,19 @@ impl<D: Displacement> Body<'_, D> {
     #[inline(always)]
     pub(super) fn releases_at_border(&self, face: &Face, state: &mut BodyWitness, away: Vec3) -> bool {
         let [u, v] = state.witness.parameters;
+        let Vec3 { x, y, z } = away;
         if is_apart(u) {
-            !is_apart(v) && self.releases_at_side(face, 2 + is_upper(v), state, away)
+            !is_apart(v) && self.releases_at_side(face, 2 + is_upper(v), state, x, y, z)
         } else if is_apart(v) {
-            self.releases_at_side(face, is_upper(u), state, away)
+            self.releases_at_side(face, is_upper(u), state, x, y, z)
         } else {
-            self.releases_at_corner(face, state, away)
+            self.releases_at_corner(face, state, x, y, z)
         }
     }
 
     /// The same near a corner: by the planes between three convex edges, otherwise over either side.
     #[inline(never)]
-    fn releases_at_corner(&self, face: &Face, state: &mut BodyWitness, away: Vec3) -> bool {
+    fn releases_at_corner(&self, face: &Face, state: &mut BodyWitness, x: f32, y: f32, z: f32) -> bool {
         let (probe, [u, v]) = (state.probe, state.witness.parameters);
         let sides = [is_upper(u), 2 + is_upper(v)];
         let vertex = match face.sides.get(sides[0]) {
@@ -75,13 +76,14 @@ impl<D: Displacement> Body<'_, D> {
                 }
                 is_over
             }
-            None => sides.into_iter().any(|number| self.releases_at_side(face, number, state, away)),
+            None => sides.into_iter().any(|number| self.releases_at_side(face, number, state, x, y, z)),
         }
     }
 
+    /// The offset of the probe as scalars, so that the tick that does not ask keeps it in registers.
     #[inline(never)]
-    fn releases_at_side(&self, face: &Face, number: usize, state: &mut BodyWitness, away: Vec3) -> bool {
-        let is_over = self.is_in_front_of_neighbour(face, number, state, away);
+    fn releases_at_side(&self, face: &Face, number: usize, state: &mut BodyWitness, x: f32, y: f32, z: f32) -> bool {
+        let is_over = self.is_in_front_of_neighbour(face, number, state, vec3(x, y, z));
         if is_over {
             self.update_contact_at_border(state, Some(true));
             // The neighbour is nearer: the tracker looks for it only from the border.

@@ -128,6 +128,10 @@ impl SplineCurve<'_> {
 /// Horner's rule.
 #[inline]
 fn value<const D: usize>((powers, s): (&[[f32; D]], f32)) -> [f32; D] {
+    // Most often a parabola: without a loop.
+    if let [first, next, highest] = powers {
+        return horner_step(horner_step(*highest, s, *next), s, *first);
+    }
     let Some((highest, mut lower)) = powers.split_last() else { return [0.0; D] };
     let mut value = *highest;
     // In twos: a step alone ends in other registers than it starts from.
