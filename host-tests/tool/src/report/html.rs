@@ -7,7 +7,7 @@ use std::path::Path;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 const STYLE: &str = ":root{color-scheme:light dark;--ink:#1b1f24;--quiet:#57606a;--line:#d8dee4;--paper:#fff;--shade:#8c959f}\
-@media(prefers-color-scheme:dark){:root{--ink:#e6edf3;--quiet:#9198a1;--line:#30363d;--paper:#0d1117;--shade:#6e7681}a{color:#58a6ff}}\
+@media(prefers-color-scheme:dark){:root{--ink:#e6edf3;--quiet:#9198a1;--line:#30363d;--paper:#0d1117;--shade:#484f58}a{color:#58a6ff}}\
 body{font:16px/1.5 system-ui,sans-serif;color:var(--ink);background:var(--paper);max-width:62rem;margin:2rem auto;padding:0 1rem}\
 h1{margin:0}h2{margin:2.5rem 0 .5rem;font-size:1.2rem}p{margin:.3rem 0}.note{color:var(--quiet)}\
 code{overflow-wrap:anywhere;font-size:.9em}table{border-collapse:collapse;margin:1rem 0}\
