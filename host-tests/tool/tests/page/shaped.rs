@@ -17,7 +17,7 @@ fn pressed(page: &Page, half: [f64; 3], radius: f64, turned: &str) -> anyhow::Re
     page.ask(&place)
 }
 
-/// The tool's greatest coordinate along z by its drawn pose: of the corners of its core, and the radius.
+/// How far the tool reaches along z by its drawn pose: the corners of its core, and the radius.
 const TOP: &str = "(({ position, orientation: [x, y, z, w], half, radius, size }) => {
     const upward = [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)];
     return position[2] + size * (radius + upward.reduce((sum, part, axis) => sum + Math.abs(part) * half[axis], 0));
