@@ -165,6 +165,12 @@ macro_rules! at_least {
 
 // In the alignment a connected phase must have twice the current of an open one.
 const _: () = {
+    let most = MOTOR.max_force_n * MOTOR.kinematics.radius_m;
+    assert!(
+        SEARCH.torque_n_m <= USUAL_ALIGNMENT_N_M || SEARCH.torque_n_m <= most,
+        "this motor's alignment, which turns the dial by itself, takes more than the knob's max_force_n times its radius: \
+         raise that if the hand bears it, or take a motor of more ohms"
+    );
     at_least!(
         CURRENT_AT_FULL,
         2.0 * CURRENTS.open_a / AMPLITUDE,
