@@ -5,7 +5,8 @@ use crate::modes::Modes;
 use crate::refusal::Refusal;
 use glam::DVec3;
 use palpate::math::Vec3;
-use palpate_bake::{BakedBody, Model};
+use palpate::patch::SplinePatch;
+use palpate_bake::{BakedBody, BakedPatch, Model};
 use pyo3::prelude::*;
 use std::path::Path;
 
@@ -14,6 +15,8 @@ use std::path::Path;
 pub struct Body {
     /// As the firmware has it.
     pub tables: &'static palpate::body::Body<'static>,
+    /// Its only patch, as the firmware has it: a loop renders it by itself, as the commands do.
+    pub alone: Option<&'static SplinePatch<'static>>,
     /// As the baker has it.
     pub baked: BakedBody,
     /// Its model, as far as it is known.
@@ -35,6 +38,7 @@ impl Body {
         margin: f64,
         progress: &(dyn Fn(usize, usize) + Sync),
     ) -> Result<Self, Refusal> {
+        let is_file = matches!(source, Source::Tables(..));
         let is_cut = matches!(&source, Source::Tables(file, _) if file.body.faces.len() > file.model.patches.len());
         let Made { model, baked, bytes } = source.made(margin, progress)?;
         if let Some(path) = modes.filter(|_| is_cut) {
@@ -44,7 +48,14 @@ impl Body {
         }
         let tables = baked.to_body().map_err(|fault| Refusal::Model(format!("{}: {fault}", model.name)))?;
         let modes = modes.map(|path| Modes::read(path, &model, &tables)).transpose()?;
-        Ok(Self { tables: Box::leak(Box::new(tables)), baked, model, bytes, modes })
+        let tables: &'static palpate::body::Body<'static> = Box::leak(Box::new(tables));
+        let alone = match tables.faces() {
+            [face] => Some(&face.patch),
+            // Cut into faces, of which a file knows no more.
+            _ if model.patches.len() == 1 && !is_file => Some(whole(&model)?),
+            _ => None,
+        };
+        Ok(Self { tables, alone, baked, model, bytes, modes })
     }
 
     /// A place of the model in the frame of the tables.
@@ -89,4 +100,11 @@ impl Body {
     pub fn has_inside(&self) -> bool {
         self.baked.topology.is_closed()
     }
+}
+
+/// The first patch of a model, uncut.
+fn whole(model: &Model) -> Result<&'static SplinePatch<'static>, Refusal> {
+    let fault = |fault: &dyn std::fmt::Display| Refusal::Model(format!("{}: {fault}", model.name));
+    let baked = BakedPatch::new(&model.patches[0]).map_err(|error| fault(&error))?;
+    Ok(Box::leak(Box::new(baked.to_patch().map_err(|error| fault(&error))?)))
 }

@@ -8,6 +8,7 @@ use glam::DVec3;
 use numpy::PyReadonlyArray2;
 use palpate::body::Effort;
 use palpate::device::{Counts, Kinematics, Protection};
+use palpate::patch::SplinePatch;
 use palpate::servo::recommended::{self, Recommended};
 use palpate::servo::{Config, Event, Guard, Input, Rendering, Safety, Servo, ServoState, Settings, Surface};
 use palpate::wire::Report;
@@ -128,8 +129,15 @@ enum LoopDevice {
     Recorded(Vec<f32>),
 }
 
+/// A surface that does not deform.
+#[derive(Clone, Copy)]
+enum Rigid {
+    Patch(&'static SplinePatch<'static>),
+    Body(&'static palpate::body::Body<'static>),
+}
+
 struct Started {
-    body: &'static palpate::body::Body<'static>,
+    surface: Rigid,
     /// Its stiffness, damping, maximum force and velocity corner count where `given` has them.
     config: Config<3>,
     given: [Option<f32>; 4],
@@ -159,7 +167,7 @@ impl Started {
         protection: Option<Protection<3>>,
         recommended: &Settings,
     ) -> Result<Box<dyn Ticking>, Refusal> {
-        let Self { body, mut config, given: [stiffness, damping, max_force, velocity_corner], beyond, .. } = self;
+        let Self { surface, mut config, given: [stiffness, damping, max_force, velocity_corner], beyond, .. } = self;
         config.settings = Settings {
             stiffness_n_per_m: stiffness.unwrap_or(recommended.stiffness_n_per_m),
             damping_n_s_per_m: damping.unwrap_or(recommended.damping_n_s_per_m),
@@ -177,16 +185,32 @@ impl Started {
         } else {
             device
         };
-        let refused = |error| refused(error, &config.settings, device);
-        if let Some(protection) = protection {
-            let servo = Servo::try_protected(device, body, protection, config).map_err(refused)?;
-            let state = servo.start();
-            Ok(Box::new(Running { servo, state }))
-        } else {
-            let servo = Servo::try_new(device, body, config).map_err(refused)?;
-            let state = servo.start();
-            Ok(Box::new(Running { servo, state }))
+        match surface {
+            Rigid::Patch(patch) => running(device, patch, protection, config),
+            Rigid::Body(body) => running(device, body, protection, config),
         }
+    }
+}
+
+/// The loop over a surface, before its first tick.
+fn running<K: Kinematics<3> + Copy + Sync + 'static, S: Surface + Sync + 'static>(
+    device: &'static palpate::device::Device<K, 3>,
+    surface: &'static S,
+    protection: Option<Protection<3>>,
+    config: Config<3>,
+) -> Result<Box<dyn Ticking>, Refusal>
+where
+    S::Witness: Send + Sync,
+{
+    let refused = |error| refused(error, &config.settings, device);
+    if let Some(protection) = protection {
+        let servo = Servo::try_protected(device, surface, protection, config).map_err(refused)?;
+        let state = servo.start();
+        Ok(Box::new(Running { servo, state }))
+    } else {
+        let servo = Servo::try_new(device, surface, config).map_err(refused)?;
+        let state = servo.start();
+        Ok(Box::new(Running { servo, state }))
     }
 }
 
@@ -224,9 +248,10 @@ impl Loop {
         let safety = Safety { link_timeout_s: 0.1, ..Safety::DEFAULT };
         let config = Config { settings, rendering, safety, ..Config::DEFAULT };
         // The loop wants its surface for good.
-        let surface = Box::leak(Box::new(body.tables.with_effort(Effort::ONE)));
+        let whole = || Rigid::Body(Box::leak(Box::new(body.tables.with_effort(Effort::ONE))));
+        let surface = body.alone.map_or_else(whole, Rigid::Patch);
         let given = [stiffness, damping, max_force, velocity_corner];
-        let started = Started { body: surface, config, given, protected, beyond };
+        let started = Started { surface, config, given, protected, beyond };
         let running = match device {
             LoopDevice::Named(device) => on_device(&device, started)?,
             LoopDevice::Recorded(numbers) => {

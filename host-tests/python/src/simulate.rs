@@ -7,13 +7,15 @@ use palpate::body::Body;
 use palpate::device::{Counts, Device, Kinematics, Protection};
 use palpate::field::MAX_MODES;
 use palpate::math::Vec3;
-use palpate::patch::Patch as _;
+use palpate::patch::SplinePatch;
 use palpate::servo::recommended::Recommended;
 use palpate::servo::{
     Config, Event, Guard, Input, Rendering, Safety, Servo, Settings, SoftBody, Surface, Tracked as _,
 };
 use palpate::wire::Report;
-use palpate_sim::plant::{HandSettings, PathError, Plant, PlantSettings, TouchingPath, direction_around};
+use palpate_bake::NurbsPatch;
+use palpate_sim::plant::{HandSettings, PathError, Plant, PlantSettings, TouchingPath, middle, place_around};
+use palpate_truth::oracle::OraclePoint;
 
 /// The seconds before force is asked for, in which the witness point converges.
 const STANDBY: f32 = 0.1;
@@ -21,8 +23,6 @@ const STANDBY: f32 = 0.1;
 const LONGEST: f64 = 3_600.0;
 /// The limits of a loop with a host at its link, which is gone when it is silent for 100 ms.
 const SAFETY: Safety = Safety { link_timeout_s: 0.1, ..Safety::DEFAULT };
-/// Steps along each parameter of the grid on which a body's bounding box is taken.
-const GRID: u16 = 16;
 
 /// The request.
 pub struct Wishes {
@@ -48,8 +48,36 @@ pub struct Wishes {
     pub protected: bool,
     /// Where the origin of the tables lies in the device's workspace, m; centres the body if not given.
     pub origin: Option<DVec3>,
-    /// The body with its modes, where it deforms.
-    pub soft: Option<&'static SoftBody<'static>>,
+}
+
+/// The surface of a run, as `palpate sim` takes it.
+#[derive(Clone, Copy)]
+pub enum Touched<'a> {
+    /// One patch, and in double precision, as the hand follows it.
+    Patch(&'static SplinePatch<'static>, &'a NurbsPatch),
+    /// All faces.
+    Body(&'static Body<'static>),
+    /// A body that deforms; the hand touches it at rest.
+    Soft(&'static Body<'static>, &'static SoftBody<'static>),
+}
+
+impl Touched<'_> {
+    /// The middle of its bounding box.
+    fn middle(self) -> Vec3 {
+        match self {
+            Self::Patch(patch, _) => middle(std::iter::once(patch)),
+            Self::Body(body) | Self::Soft(body, _) => middle(body.faces().iter().map(|face| &face.patch)),
+        }
+    }
+
+    /// Where a hand may touch: a point and the outward normal for each `(u, v)` in `[0, 1]²`.
+    fn places(self) -> impl Fn(f64, f64) -> (DVec3, DVec3) {
+        let middle = self.middle();
+        move |u, v| match self {
+            Self::Patch(_, surface) => OraclePoint::place(surface, u, v),
+            Self::Body(body) | Self::Soft(body, _) => place_around(body, middle, u, v),
+        }
+    }
 }
 
 /// One tick as both ends saw it.
@@ -79,8 +107,8 @@ impl Run {
     }
 }
 
-/// A run of a body on a device.
-pub struct Simulated<'a>(pub &'static Body<'static>, pub &'a Wishes);
+/// A run of a surface on a device.
+pub struct Simulated<'a>(pub Touched<'a>, pub &'a Wishes);
 
 impl OnDevice for Simulated<'_> {
     type Made = Run;
@@ -92,20 +120,21 @@ impl OnDevice for Simulated<'_> {
         plant: &PlantSettings,
         recommended: Recommended,
     ) -> Result<Run, Refusal> {
-        let Self(body, wishes) = self;
-        match wishes.soft {
-            None => run_over(device, protection, plant, body, body, wishes, recommended),
-            Some(soft) => run_over(device, protection, plant, body, soft, wishes, recommended),
+        let Self(touched, wishes) = self;
+        match touched {
+            Touched::Patch(patch, _) => run_over(device, protection, plant, touched, patch, wishes, recommended),
+            Touched::Body(body) => run_over(device, protection, plant, touched, body, wishes, recommended),
+            Touched::Soft(_, soft) => run_over(device, protection, plant, touched, soft, wishes, recommended),
         }
     }
 }
 
-/// Runs it over a surface, in a hand that touches the body at rest.
+/// Runs it over a surface.
 fn run_over<K: Kinematics<3>, S: Surface>(
     device: &'static Device<K, 3>,
     protection: Protection<3>,
     simulated: &PlantSettings,
-    body: &'static Body<'static>,
+    touched: Touched<'_>,
     surface: &'static S,
     wishes: &Wishes,
     Recommended { settings: recommended, rendering }: Recommended,
@@ -122,12 +151,12 @@ fn run_over<K: Kinematics<3>, S: Surface>(
         max_force_n: wishes.max_force.unwrap_or(recommended.max_force_n),
         velocity_corner_hz: wishes.velocity_corner.unwrap_or(recommended.velocity_corner_hz),
         soft_start_s: wishes.soft_start,
-        body_origin_m: wishes.origin.map_or_else(|| -middle(body), |origin| origin.as_vec3()),
+        body_origin_m: wishes.origin.map_or_else(|| -touched.middle(), |origin| origin.as_vec3()),
     };
     let rendering = if wishes.smooth { rendering } else { Rendering::PLAIN };
     let config = Config { settings, rendering, safety: SAFETY, ..Config::DEFAULT };
     let servo = Servo::try_new(device, surface, config).map_err(|error| refused(error, &settings, device))?;
-    let mut plant = plant(device, simulated, body, settings.body_origin_m, wishes)?;
+    let mut plant = plant(device, simulated, touched, settings.body_origin_m, wishes)?;
     let samples = if wishes.protected {
         let servo = Servo::try_protected(device, surface, protection, config)
             .map_err(|error| refused(error, &settings, device))?;
@@ -160,18 +189,18 @@ fn looped<K: Kinematics<3>, S: Surface, G: Guard<3>>(
     samples
 }
 
-/// The simulated device with a hand that touches the body.
+/// The simulated device with a hand that touches the surface.
 fn plant<K: Kinematics<3>>(
     device: &'static Device<K, 3>,
     simulated: &PlantSettings,
-    body: &'static Body<'static>,
+    touched: Touched<'_>,
     origin: Vec3,
     wishes: &Wishes,
 ) -> Result<Plant, Refusal> {
-    let middle = middle(body);
+    let places = touched.places();
     let origin = origin.as_dvec3();
     let surface = |u, v| {
-        let (point, normal) = place(body, middle, direction_around(u, v));
+        let (point, normal) = places(u, v);
         ((point + origin).to_array(), normal.to_array())
     };
     let mechanism = simulated.mechanism(0.0);
@@ -191,25 +220,4 @@ fn plant<K: Kinematics<3>>(
     })?;
     Plant::new(simulated, HandSettings::default(), Box::new(path), f64::from(wishes.rate))
         .map_err(|error| advice(&error))
-}
-
-/// Where a hand may touch, seen from the body's middle: the closest point to a place outside in this direction, and
-/// the direction back. Continuous around a convex body, edges and corners included.
-fn place(body: &Body<'_>, middle: Vec3, direction: [f64; 3]) -> (DVec3, DVec3) {
-    let outside = middle + DVec3::from_array(direction).as_vec3() * body.size();
-    let found = body.locate(outside);
-    let [u, v] = found.parameters;
-    let point = body.faces()[usize::from(found.face)].patch.evaluate(u, v).point;
-    (point.as_dvec3(), (outside - point).as_dvec3().normalize_or_zero())
-}
-
-/// The middle of a body's bounding box, from a grid of points.
-fn middle(body: &Body<'_>) -> Vec3 {
-    let share = |index: u16| f32::from(index) / f32::from(GRID);
-    let grid = || (0..=GRID).flat_map(|i| (0..=GRID).map(move |j| (i, j)));
-    let points =
-        body.faces().iter().flat_map(|face| grid().map(|(i, j)| face.patch.evaluate(share(i), share(j)).point));
-    let [low, high] =
-        points.fold([Vec3::INFINITY, Vec3::NEG_INFINITY], |[low, high], point| [low.min(point), high.max(point)]);
-    0.5 * (low + high)
 }

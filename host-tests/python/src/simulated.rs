@@ -3,7 +3,7 @@
 use crate::arrays::{line, table, usable, wide};
 use crate::body::Body;
 use crate::devices::on_device;
-use crate::simulate::{Run, Sample, Simulated, Wishes};
+use crate::simulate::{Run, Sample, Simulated, Touched, Wishes};
 use glam::DVec3;
 use palpate::body::Effort;
 use pyo3::prelude::*;
@@ -53,9 +53,13 @@ pub fn simulate<'py>(
         smooth,
         protected,
         origin,
-        soft,
     };
-    let run = py.detach(|| on_device(&device, Simulated(surface, &wishes)))?;
+    let touched = match (body.alone, soft) {
+        (_, Some(soft)) => Touched::Soft(surface, soft),
+        (Some(patch), None) => Touched::Patch(patch, &body.model.patches[0]),
+        (None, None) => Touched::Body(surface),
+    };
+    let run = py.detach(|| on_device(&device, Simulated(touched, &wishes)))?;
     columns(py, &run, body.count())
 }
 

@@ -144,6 +144,28 @@ def test_a_simulated_run_is_the_demo_of_the_readme(capped_box):
         same_bits(ours, theirs)
 
 
+@pytest.mark.parametrize(
+    ("model", "is_file"), [("ellipsoid", False), ("ellipsoid", True), ("thin_plate", False)]
+)
+def test_a_run_of_one_face_or_of_many_has_the_hash_of_the_command(model, is_file, tmp_path):
+    body = palpate.Body.bake(model)
+    if is_file:
+        body.save(model := tmp_path / "one_face.palp")
+        body = palpate.Body.load(model)
+    path = tmp_path / "run.json"
+    command = [os.environ["PALPATE_TOOL"], "sim", "--model", model, "--seconds", "1", "--recording", path]
+    printed = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    run = palpate.simulate("woodenhaptics-2016", body, seconds=1)
+    assert re.findall(r"state hash +(\w+)", printed) == [run.state_hash]
+    assert (run.contact == 2).any()
+    # The loop of a recording has the same surface.
+    loop, forces = palpate.Recording.load(path).loop(), []
+    for counts, enable in zip(run.counts.tolist(), (np.arange(4000) >= 400).tolist()):
+        loop.tick(counts, enable)
+        forces.append(loop.force)
+    same_bits(np.array(forces, dtype=np.float32), run.force)
+
+
 @pytest.mark.parametrize("device", palpate.devices())
 def test_every_device_feels_the_box(device, capped_box):
     run = palpate.simulate(device, capped_box, seconds=1.5, seed=3)

@@ -36,7 +36,7 @@ def simulate(
 ) -> Run:
     """Runs the firmware's servo loop against a simulated device in a simulated hand.
 
-    For a body of several faces it is what ``palpate sim`` runs, bit by bit; one face is felt as a body, too.
+    It is what ``palpate sim`` runs, bit by bit; the only patch of a model is felt by itself, as there.
 
     `device` is one of `devices`, or the path of one's own device file (``.toml``); `body` is what it feels. `rate`, Hz, `seconds`, and `seed` of the hand's path;
     `stiffness`, N/m, and `damping`, N·s/m, of the surface, `max_force`, N, and `velocity_corner`, Hz, of the velocity

@@ -45,7 +45,7 @@ pub use thermal::{AIR, Thermal, ThermalSettings};
 pub use touching::TouchingSettings;
 pub use validate::PlantError;
 pub use vector::{Matrix, Vector, dot, inverse, scaled, times};
-pub use within::direction_around;
+pub use within::{direction_around, middle, place_around};
 
 use encoder::FaultyEncoder;
 use mechanics::Mechanics;

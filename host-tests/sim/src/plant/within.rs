@@ -3,6 +3,10 @@
 use crate::plant::path::{PathError, TouchingPath};
 use crate::plant::touching::TouchingSettings;
 use crate::plant::vector::Vector;
+use glam::DVec3;
+use palpate::body::Body;
+use palpate::math::Vec3;
+use palpate::patch::{Patch as _, SplinePatch};
 use std::f64::consts::PI;
 
 /// How often the hand touches: a stroke of 0.8 s.
@@ -62,6 +66,26 @@ pub fn direction_around(u: f64, v: f64) -> Vector {
     // sin(x)/x at 0 is 1.
     let sideways = if angle > 1e-9 { angle.sin() / angle } else { 1.0 };
     [a * sideways, b * sideways, angle.cos()]
+}
+
+/// Where a hand may touch a body, seen from its middle, m: for each `(u, v)` in `[0, 1]²`, which is a
+/// [direction](direction_around) to a place outside, the body's closest point to that place, and the direction back.
+/// Continuous around a convex body, edges and corners included.
+pub fn place_around(body: &Body<'_>, middle: Vec3, u: f64, v: f64) -> (DVec3, DVec3) {
+    let outside = middle + DVec3::from_array(direction_around(u, v)).as_vec3() * body.size();
+    let found = body.locate(outside);
+    let [u, v] = found.parameters;
+    let point = body.faces()[usize::from(found.face)].patch.evaluate(u, v).point;
+    (point.as_dvec3(), (outside - point).as_dvec3().normalize_or_zero())
+}
+
+/// The middle of the box around points of these patches.
+pub fn middle<'a>(patches: impl Iterator<Item = &'a SplinePatch<'a>>) -> Vec3 {
+    let grid = || (0..=16).flat_map(|i| (0..=16).map(move |j| (i as f32 / 16.0, j as f32 / 16.0)));
+    let (low, high) = patches
+        .flat_map(|patch| grid().map(|(u, v)| patch.evaluate(u, v).point))
+        .fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), point| (low.min(point), high.max(point)));
+    0.5 * (low + high)
 }
 
 #[cfg(test)]

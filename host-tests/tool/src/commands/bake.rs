@@ -1,7 +1,6 @@
 //! `palpate bake`: writes a model's tables as Rust source, or as a file.
 
 use super::check::{self, Loaded};
-use super::felt;
 use super::output::{print, write_whole};
 use super::progress;
 use super::soft;
@@ -19,6 +18,7 @@ use palpate_bake::file::FileFault;
 use palpate_bake::graph;
 use palpate_bake::source::{self, Origin};
 use palpate_bake::survey::Verdict;
+use palpate_sim::plant::middle;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -245,7 +245,7 @@ pub(super) fn baked(path: &Path, out_file: &str) -> anyhow::Result<Baked> {
     };
     let source = source::source(&origin, &loaded.model, &loaded.body)?;
     let patches = loaded.body.faces.iter().map(|face| face.patch.to_patch()).collect::<Result<Vec<_>, _>>()?;
-    let middle = felt::middle(patches.iter());
+    let middle = middle(patches.iter());
     let flaws = loaded.flaws();
     let mut remarks: String = flaws.iter().map(|flaw| loaded.describe(flaw) + "\n").collect();
     if loaded.verdict(&flaws) == Verdict::Usable {

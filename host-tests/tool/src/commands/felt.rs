@@ -9,13 +9,13 @@ use glam::DVec3;
 use palpate::body::{Body, Edge, EdgeFace, Effort, Soft};
 use palpate::field::{FieldBounds, Modal, Mode, Quadratic};
 use palpate::math::Vec3;
-use palpate::patch::{Patch as _, SplinePatch};
+use palpate::patch::SplinePatch;
 use palpate::scene::Limits;
 use palpate::servo::SoftBody;
 use palpate_bake::source::{Origin, body_source, modes_source, rust_source};
 use palpate_bake::split::Provenance;
 use palpate_bake::{BakedBody, BakedPatch, Model, NurbsPatch, modes};
-use palpate_sim::plant::direction_around;
+use palpate_sim::plant::{middle, place_around};
 use palpate_sim::zwidth::SoftWall;
 use palpate_truth::oracle::OraclePoint;
 use std::path::Path;
@@ -120,15 +120,6 @@ impl SoftModes {
              surface\n}}\n"
         ))
     }
-}
-
-/// The middle of the box around points of these patches.
-pub(super) fn middle<'a>(patches: impl Iterator<Item = &'a SplinePatch<'a>>) -> Vec3 {
-    let grid = || (0..=16).flat_map(|i| (0..=16).map(move |j| (i as f32 / 16.0, j as f32 / 16.0)));
-    let (low, high) = patches
-        .flat_map(|patch| grid().map(|(u, v)| patch.evaluate(u, v).point))
-        .fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), point| (low.min(point), high.max(point)));
-    0.5 * (low + high)
 }
 
 impl Felt {
@@ -268,38 +259,16 @@ impl Felt {
     /// parameters; on a body the direction from its middle, `(½, ½)` upwards, to a place outside, and the body's
     /// closest point to that place: continuous around a convex body, edges and corners included.
     pub fn places(&self) -> Box<dyn Fn(f64, f64) -> (DVec3, DVec3)> {
-        let felt = match self {
-            Self::Patch { surface, .. } => Places::On(surface.clone()),
-            Self::Body { body, .. } => Places::Around { body, middle: self.middle() },
-            Self::Scene(scene) => return Box::new(scene.places()),
-        };
-        Box::new(move |u, v| felt.at(u, v))
-    }
-}
-
-/// See [`Felt::places`].
-enum Places {
-    On(NurbsPatch),
-    Around { body: &'static Body<'static>, middle: Vec3 },
-}
-
-impl Places {
-    fn at(&self, u: f64, v: f64) -> (DVec3, DVec3) {
         match self {
-            Self::On(surface) => {
-                let at = OraclePoint::evaluate(surface, u, v);
-                let turn = if surface.flip { -1.0 } else { 1.0 };
-                (at.point, at.tangent_u.cross(at.tangent_v).normalize_or_zero() * turn)
+            Self::Patch { surface, .. } => {
+                let surface = surface.clone();
+                Box::new(move |u, v| OraclePoint::place(&surface, u, v))
             }
-            Self::Around { body, middle } => {
-                let direction = DVec3::from_array(direction_around(u, v)).as_vec3();
-                let outside = *middle + direction * body.size();
-                let found = body.locate(outside);
-                let [u, v] = found.parameters;
-                let patch = &body.faces()[usize::from(found.face)].patch;
-                let point = patch.evaluate(u, v).point;
-                (point.as_dvec3(), (outside - point).as_dvec3().normalize_or_zero())
+            Self::Body { body, .. } => {
+                let (body, middle) = (*body, self.middle());
+                Box::new(move |u, v| place_around(body, middle, u, v))
             }
+            Self::Scene(scene) => Box::new(scene.places()),
         }
     }
 }

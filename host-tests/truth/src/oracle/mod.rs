@@ -120,6 +120,13 @@ impl OraclePoint {
         }
     }
 
+    /// A patch's point and outward unit normal at `(u, v) ∈ [0, 1]²`; without a normal zero.
+    pub fn place(patch: &NurbsPatch, u: f64, v: f64) -> (DVec3, DVec3) {
+        let at = Self::evaluate(patch, u, v);
+        let turn = if patch.flip { -1.0 } else { 1.0 };
+        (at.point, at.tangent_u.cross(at.tangent_v).normalize_or_zero() * turn)
+    }
+
     /// The unit normal `f_u × f_v`, turned round if `flip`.
     pub fn normal(&self, flip: bool) -> DVec3 {
         let normal = self.tangent_u.cross(self.tangent_v).normalize();
