@@ -99,6 +99,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let mut loaded = Loaded::read(&arguments.model)?;
     let labels = loaded.body.labels(&loaded.model);
     let is_body = loaded.body.faces.len() > 1;
+    // Source of a single patch is no body.
+    let is_patch = !is_body && arguments.out.as_ref().is_some_and(|out| has_ending(out, "rs"));
     let (mut report, mut evidence) = (None, None);
     // The automaton has no locator in it.
     if loaded.file.baked().is_some() {
@@ -157,7 +159,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
             None if is_body => String::new(),
             None => table_report::of_patches(&loaded.surveys())?,
         };
-        let text = text + &table_report::of_tick(&tables, limit, true)? + &table_report::on_boards(bytes(&loaded))?;
+        let tick = if is_patch { table_report::of_patch_tick()? } else { table_report::of_tick(&tables, limit, true)? };
+        let text = text + &tick + &table_report::on_boards(bytes(&loaded))?;
         // A file has a locator even of a single patch.
         let as_file = if is_body { file(&loaded)? } else { file_of(&arguments.model)? };
         print((text + &table_report::as_file(as_file.len(), &loaded.body)?).as_bytes())?;
@@ -170,7 +173,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let (faces, edges) = (loaded.body.faces.len(), loaded.body.edges.len());
     eprintln!("{}: {faces} faces, {edges} edges, {verdict}", arguments.model.display());
     if verdict == Verdict::Usable {
-        eprintln!("{}", check::NOT_CERTIFIED);
+        eprintln!("{}", check::not_certified(!is_patch));
     }
     if let Some(evidence) = evidence {
         eprintln!("{evidence}");
@@ -249,7 +252,7 @@ pub(super) fn baked(path: &Path, out_file: &str) -> anyhow::Result<Baked> {
     let flaws = loaded.flaws();
     let mut remarks: String = flaws.iter().map(|flaw| loaded.describe(flaw) + "\n").collect();
     if loaded.verdict(&flaws) == Verdict::Usable {
-        remarks += check::NOT_CERTIFIED;
+        remarks += &check::not_certified(is_body);
         remarks.push('\n');
     }
     Ok(Baked { source, bytes: bytes(&loaded), middle, centre: loaded.model.centre, remarks })

@@ -129,8 +129,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
     let body = loaded.body.to_body().with_context(|| loaded.file.label.clone())?;
     let (fitted, boards) = (body.fitted(TickLimit::BENCH), TickLimit::BENCH);
     report += "\n";
-    report += &table_report::of_tick(&fitted, boards, loaded.file.baked().is_some())?;
-    if !fitted.fits(boards) {
+    let is_file = loaded.file.baked().is_some();
+    let is_patch = loaded.body.faces.len() == 1 && !is_file;
+    report += &if is_patch { table_report::of_patch_tick()? } else { table_report::of_tick(&fitted, boards, is_file)? };
+    if !is_patch && !fitted.fits(boards) {
         writeln!(
             report,
             "a tick may exceed the bench boards' limit: for a faster board raise `palpate bake --tick-cycles`"
@@ -148,7 +150,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<ExitCode> {
         surveys.len()
     )?;
     if verdict == Verdict::Usable {
-        writeln!(report, "{NOT_CERTIFIED}")?;
+        writeln!(report, "{}", not_certified(!is_patch))?;
     }
     print(report.as_bytes())?;
     Ok(exit_code(verdict))
@@ -338,10 +340,14 @@ fn worst(surveys: &[Survey], flaws: &[Flaw]) -> Verdict {
     surveys.iter().map(|survey| survey.verdict).max().unwrap_or(Verdict::Usable)
 }
 
-/// The meaning of the verdict to a user.
-pub(super) const NOT_CERTIFIED: &str = "\
-not certified: usable on a device, but no proof covers every probe: tracking may rest at a local minimum until the \
-audit finds a nearer point (`palpate check` has the reasons)";
+/// The meaning of the verdict to a user: a body has an audit, a patch by itself has none.
+pub(super) fn not_certified(is_body: bool) -> String {
+    let until = if is_body { "until the audit finds a nearer point" } else { "for good: a single patch has no audit" };
+    format!(
+        "not certified: usable on a device, but no proof covers every probe: tracking may rest at a local minimum {until} \
+         (`palpate check` has the reasons)"
+    )
+}
 
 pub(super) fn exit_code(verdict: Verdict) -> ExitCode {
     match verdict {

@@ -72,6 +72,13 @@ pub(super) fn of_tick(body: &Body<'_>, limit: TickLimit, is_located: bool) -> Re
     Ok(report)
 }
 
+/// A tick over one patch by itself, which is no body.
+pub(super) fn of_patch_tick() -> Result<String, Error> {
+    let mut report = String::new();
+    row(&mut report, "each tick", 1, "evaluation: one patch by itself has no neighbours, no search and no audit")?;
+    Ok(report)
+}
+
 /// The size of the body as a file, and of the part that is built in RAM.
 pub(super) fn as_file(bytes: usize, body: &BakedBody) -> Result<String, Error> {
     let mut report = String::new();

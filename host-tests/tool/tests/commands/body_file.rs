@@ -45,6 +45,12 @@ fn the_report_on_a_single_patch_has_the_size_of_its_file() -> Result<(), Box<dyn
         assert_eq!(row("as a file"), Some(fs::metadata(&out)?.len().to_string().as_str()), "{report}");
         // A face of 57 words and four edges of 13, as palpate.h has them.
         assert_eq!(row("RAM for it"), Some((4 * (57 + 4 * 13)).to_string().as_str()), "{report}");
+        // The source is a patch, the file a body of one face.
+        let is_source = file == &source;
+        assert_eq!(
+            [row("each tick"), row("audit").map(|_| "an audit")],
+            if is_source { [Some("1"), None] } else { [None, Some("an audit")] }
+        );
     }
     Ok(())
 }
