@@ -3,9 +3,9 @@
 use super::demo_knob::recorded_of;
 use super::device::toml_of;
 use crate::commission::{
-    Device, EmulatedLine, Finding, GIVE, HostLine, Key, KeyHeld, Keyboard, Lab, Line, MOVED, NoKey, Person, Planted,
-    PlantedFault, PortLine, RATE, SimulatedHands, World, Zero, angle, begin_within, calibration, find, find_mounting,
-    said,
+    Device, EmulatedLine, Finding, GIVE, Hands, HostLine, Key, KeyHeld, Keyboard, Lab, Line, MOVED, NoKey, Person,
+    Planted, PlantedFault, PortLine, RATE, SimulatedHands, World, Zero, angle, begin_within, calibration, find,
+    find_mounting, said,
 };
 use crate::firmware::{Board, Choice, Program, Progress};
 use crate::knob;
@@ -78,6 +78,9 @@ pub struct Arguments {
     /// torque:2=0.8, friction:0=2, encoders:0-1, motors:1-2
     #[arg(long, value_name = "FAULT", conflicts_with = "port")]
     plant: Vec<PlantedFault>,
+    /// Print what a person at a port is asked; simulated hands answer
+    #[arg(long, conflicts_with = "port")]
+    prompts: bool,
 }
 
 /// How often a line is shown.
@@ -213,10 +216,10 @@ fn report(own: &OwnDevice, findings: &[Finding]) {
 
 /// The device and the person at it.
 fn lab(arguments: &Arguments, own: &OwnDevice) -> anyhow::Result<Lab> {
+    let names = own.file.joint.iter().map(|joint| joint.name.clone()).collect();
     if let Some(path) = &arguments.port {
         // Looking takes nobody at the keys, and holds none.
         let key: Box<dyn Key> = if arguments.watch.is_some() { Box::new(NoKey) } else { Box::new(Keyboard::new()?) };
-        let names = own.file.joint.iter().map(|joint| joint.name.clone()).collect();
         let hands = Box::new(Person::new(names));
         let device = Device::connect(Box::new(PortLine::open(path, arguments.baud)?), key)?;
         return Ok(Lab { device, hands });
@@ -237,7 +240,10 @@ fn lab(arguments: &Arguments, own: &OwnDevice) -> anyhow::Result<Lab> {
         None => Box::new(HostLine::new(own, &world)?),
     };
     let device = Device::connect(line, Box::new(KeyHeld))?;
-    Ok(Lab { device, hands: Box::new(SimulatedHands::new(&world)) })
+    let simulated = SimulatedHands::new(&world);
+    let hands: Box<dyn Hands> =
+        if arguments.prompts { Box::new(Person::rehearsed(names, simulated)) } else { Box::new(simulated) };
+    Ok(Lab { device, hands })
 }
 
 /// Shows what the encoders say, and drives nothing.

@@ -149,19 +149,40 @@ pub struct Person {
     names: Vec<String>,
     /// N/kg.
     gravity: f64,
+    /// The hands that follow in a rehearsal, where nobody answers.
+    rehearsed_by: Option<Box<dyn Hands>>,
 }
 
 impl Person {
     /// A person who reads and answers at this terminal; its [`Keyboard`] refuses a script.
     pub const fn new(names: Vec<String>) -> Self {
-        Self { names, gravity: 9.81 }
+        Self { names, gravity: 9.81, rehearsed_by: None }
     }
 
-    /// Says something, and waits for a line.
-    fn ask(&self, what: &str) -> anyhow::Result<String> {
+    /// The same, whose answers are given and followed by simulated hands.
+    pub fn rehearsed(names: Vec<String>, by: impl Hands + 'static) -> Self {
+        Self { rehearsed_by: Some(Box::new(by)), ..Self::new(names) }
+    }
+
+    /// Says something, and waits for Enter.
+    fn ask(&self, what: &str) -> anyhow::Result<()> {
+        self.ask_for(what, "").map(drop)
+    }
+
+    /// Says something, and waits for a line; in a rehearsal it is this answer.
+    fn ask_for(&self, what: &str, rehearsed: &str) -> anyhow::Result<String> {
         print!("\n{what}\n> ");
         stdout().flush()?;
+        if self.rehearsed_by.is_some() {
+            println!("{rehearsed}");
+            return Ok(rehearsed.to_owned());
+        }
         keyboard::line().context("cannot read the terminal")?.context("standard input was closed")
+    }
+
+    /// Follows in a rehearsal.
+    fn follow(&mut self, what: impl FnOnce(&mut dyn Hands) -> anyhow::Result<()>) -> anyhow::Result<()> {
+        self.rehearsed_by.as_mut().map_or(Ok(()), |hands| what(hands.as_mut()))
     }
 }
 
@@ -169,7 +190,8 @@ impl Hands for Person {
     fn place(&mut self, angles: [f64; 3]) -> anyhow::Result<()> {
         let places = self.names.iter().zip(angles);
         let places: Vec<_> = places.map(|(name, angle)| format!("{name} at {:.2}°", angle.to_degrees())).collect();
-        self.ask(&format!("Put joint {}, and hold them there. Enter when they are.", places.join(", "))).map(drop)
+        self.ask(&format!("Put joint {}, and hold them there. Enter when they are.", places.join(", ")))?;
+        self.follow(|hands| hands.place(angles))
     }
 
     fn pose(&mut self, angles: [f64; 3]) -> anyhow::Result<()> {
@@ -179,16 +201,16 @@ impl Hands for Person {
             "Hold the arm in the very pose in which you will hold it whenever its board is homed (as the file has it, \
              joint {}): what is measured is where that is. Enter when it is.",
             places.join(", ")
-        ))
-        .map(drop)
+        ))?;
+        self.follow(|hands| hands.pose(angles))
     }
 
     fn pass(&mut self, joint: usize, angles: [f64; 3]) -> anyhow::Result<()> {
         let (name, angle) = (&self.names[joint], angles[joint].to_degrees());
         self.ask(&format!(
             "Move joint {name} alone, slowly, to about {angle:.0}°, past its index mark. Enter when it is."
-        ))
-        .map(drop)
+        ))?;
+        self.follow(|hands| hands.pass(joint, angles))
     }
 
     fn rest(&mut self, joint: usize, towards: f64) -> anyhow::Result<()> {
@@ -197,7 +219,8 @@ impl Hands for Person {
             "Let joint {name} rest against a support, so that it can move only towards {way} angles, and hold the \
              others. Fingers out. Enter, press the enable button, and hold the space bar: its motor pulls by and by."
         );
-        self.ask(&what).map(drop)
+        self.ask(&what)?;
+        self.follow(|hands| hands.rest(joint, towards))
     }
 
     fn carry(&mut self, output: u8) -> anyhow::Result<()> {
@@ -205,20 +228,24 @@ impl Hands for Person {
             "Have a second person carry the arm, so that it can move and not fall. Fingers out. The motor on output \
              {output} is next. Enter."
         );
-        self.ask(&what).map(drop)
+        self.ask(&what)?;
+        self.follow(|hands| hands.carry(output))
     }
 
     fn pull(&mut self, force: [f64; 3]) -> anyhow::Result<f64> {
         let size = force.iter().map(|part| part * part).sum::<f64>().sqrt();
         if size == 0.0 {
-            return self.ask("Take the weight off. Enter.").map(|_| 0.0);
+            self.ask("Take the weight off. Enter.")?;
+            return self.follow(|hands| hands.pull(force).map(drop)).map(|()| 0.0);
         }
         let [x, y, z] = force.map(|part| part / size);
         let wanted = size / self.gravity;
-        let answer = self.ask(&format!(
+        let question = format!(
             "Let about {wanted:.3} kg pull at the probe along ({x:.2}, {y:.2}, {z:.2}) of the device's frame, by a \
              thread over a pulley where that is not down. How many kg are they?"
-        ))?;
+        );
+        let answer = self.ask_for(&question, &format!("{wanted:.3}"))?;
+        self.follow(|hands| hands.pull(force).map(drop))?;
         let kilograms: f64 = answer.parse().with_context(|| format!("{answer:?} is no number of kg"))?;
         if !(kilograms > 0.0 && kilograms <= 1.5 * wanted) {
             bail!("{kilograms} kg: more than {:.3} kg are more than the motor may lift here", 1.5 * wanted);
@@ -233,6 +260,7 @@ impl Hands for Person {
         } else {
             "Let the enable button go: no motor is needed now. Enter."
         };
-        self.ask(what).map(drop)
+        self.ask(what)?;
+        self.follow(|hands| hands.enable(pressed))
     }
 }

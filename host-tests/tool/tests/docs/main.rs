@@ -15,5 +15,6 @@ mod pages;
 mod pictures;
 mod readme;
 mod references;
+mod transcript;
 mod variables;
 mod wire_page;
