@@ -216,7 +216,7 @@ fn plant<K: Kinematics<3>>(
     let advice = |error: &dyn std::fmt::Display| Refusal::Settings(format!("{error} (move the model with `at`)"));
     let path = TouchingPath::within(surface, wishes.seconds, wishes.seed, has_room).map_err(|error| match error {
         PathError::NoRoom => advice(&error),
-        _ => advice(&format_args!("the hand finds no path over the surface: {error}")),
+        _ => Refusal::Settings(format!("{error}; bake one patch alone, or try another `seed`")),
     })?;
     Plant::new(simulated, HandSettings::default(), Box::new(path), f64::from(wishes.rate))
         .map_err(|error| advice(&error))

@@ -1,8 +1,9 @@
 //! A hand that touches a surface: comes down, presses, slides about, lifts off, and again; from a seed.
 
 use super::hand::HandPath;
-use super::touching::{Motion, TouchingSettings};
+use super::touching::{HEIGHT, Motion, TouchingSettings};
 use super::vector::{Vector, add_scaled, difference, norm, scaled};
+use super::within::PRESS_DEPTH;
 
 /// Knots per second. Motions of a hand lie below 10 Hz, so the cubic between knots adds nothing.
 const KNOT_RATE: f64 = 1_000.0;
@@ -26,14 +27,14 @@ pub enum PathError {
         /// Where.
         v: f64,
     },
-    /// Coming down and lifting off alone are faster than allowed.
-    #[error("the number of touches in this time needs {speed} m/s")]
+    /// Coming down and lifting off alone are faster than allowed, or the surface leaps from place to place.
+    #[error("the hand would move at {speed:.1} m/s: too many touches for this time, or a surface that leaps under it")]
     TooFast {
         /// The speed, m/s.
         speed: f64,
     },
     /// The hand would leave the workspace, however little of the surface it feels.
-    #[error("not even the middle third of the surface is in its workspace")]
+    #[error("the workspace does not hold the hand even over the surface's middle third, from {} mm above to {} mm below", 1e3 * HEIGHT, 1e3 * PRESS_DEPTH[1])]
     NoRoom,
 }
 

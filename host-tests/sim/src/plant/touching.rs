@@ -3,6 +3,9 @@
 use crate::plant::random::Random;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
+/// Where a hand starts and lifts off to over the surface, m.
+pub(super) const HEIGHT: f64 = 0.010;
+
 /// Settings of the hand's motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TouchingSettings {
@@ -27,7 +30,7 @@ impl Default for TouchingSettings {
         Self {
             duration: 5.0,
             touches: 6,
-            start_height: 0.010,
+            start_height: HEIGHT,
             press_depth: [0.003, 0.008],
             pressed_reach: 1.0,
             greatest_speed: 0.5,

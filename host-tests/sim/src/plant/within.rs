@@ -11,6 +11,8 @@ use std::f64::consts::PI;
 
 /// How often the hand touches: a stroke of 0.8 s.
 const TOUCHES_PER_SECOND: f64 = 1.2;
+/// How deep it aims at least and at most, m.
+pub(super) const PRESS_DEPTH: [f64; 2] = [0.006, 0.014];
 /// How far it reaches around a body, seen from its middle: from above to this angle, radians, along either axis.
 const AROUND: f64 = 0.6 * PI;
 /// Shares of the surface, in twentieths, that it is content with: all of it, down to its middle third.
@@ -22,7 +24,8 @@ impl TouchingPath {
     /// would need a higher speed than a hand has, it touches less often.
     ///
     /// # Errors
-    /// A duration that makes no sense, a surface that is not finite, or [`PathError::NoRoom`].
+    /// A duration that makes no sense, a surface that is not finite, [`PathError::NoRoom`], or [`PathError::TooFast`] where even
+    /// its middle third leaps from place to place.
     pub fn within(
         surface: impl Fn(f64, f64) -> (Vector, Vector),
         duration: f64,
@@ -37,7 +40,7 @@ impl TouchingPath {
             let touching = TouchingSettings {
                 duration,
                 touches,
-                press_depth: [0.006, 0.014],
+                press_depth: PRESS_DEPTH,
                 pressed_reach: 0.8,
                 ..TouchingSettings::default()
             };
@@ -53,19 +56,16 @@ impl TouchingPath {
             Ok(path) => path.keeps_to(&has_room),
             Err(_) => !is_too_fast(path),
         };
-        let paths = SHARES.rev().map(|share| slower(f64::from(share) / 20.0));
-        paths.into_iter().find(keeps).unwrap_or(Err(PathError::NoRoom))
+        let mut refused = PathError::NoRoom;
+        for share in SHARES.rev() {
+            let path = slower(f64::from(share) / 20.0);
+            if keeps(&path) {
+                return path;
+            }
+            refused = path.err().unwrap_or(PathError::NoRoom);
+        }
+        Err(refused)
     }
-}
-
-/// The direction, a unit vector from a body's middle, that a place in `[0, 1]²` stands for: `(½, ½)` is upwards, and
-/// the borders lie below the body's sides.
-pub fn direction_around(u: f64, v: f64) -> Vector {
-    let [a, b] = [u, v].map(|share| 2.0 * AROUND * (share - 0.5));
-    let angle = a.hypot(b);
-    // sin(x)/x at 0 is 1.
-    let sideways = if angle > 1e-9 { angle.sin() / angle } else { 1.0 };
-    [a * sideways, b * sideways, angle.cos()]
 }
 
 /// Where a hand may touch a body, seen from its middle, m: for each `(u, v)` in `[0, 1]²`, which is a
@@ -88,6 +88,16 @@ pub fn middle<'a>(patches: impl Iterator<Item = &'a SplinePatch<'a>>) -> Vec3 {
     0.5 * (low + high)
 }
 
+/// The direction, a unit vector from a body's middle, that a place in `[0, 1]²` stands for: `(½, ½)` is upwards, and
+/// the borders lie below the body's sides.
+pub fn direction_around(u: f64, v: f64) -> Vector {
+    let [a, b] = [u, v].map(|share| 2.0 * AROUND * (share - 0.5));
+    let angle = a.hypot(b);
+    // sin(x)/x at 0 is 1.
+    let sideways = if angle > 1e-9 { angle.sin() / angle } else { 1.0 };
+    [a * sideways, b * sideways, angle.cos()]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -106,6 +116,10 @@ mod tests {
         // The next larger share of it would not do.
         assert!(!path.keeps_to(|[x, y, _]| x.abs() < 0.04 && y.abs() < 0.04));
         assert_eq!(TouchingPath::within(square, 5.0, 2, |_| false), Err(PathError::NoRoom));
+        // All of it is near, but its halves lie apart.
+        let torn = |u, v| if u < 0.5 { square(u, v) } else { square(u + 1.0, v) };
+        let leaps = TouchingPath::within(torn, 5.0, 2, |_| true);
+        assert!(matches!(leaps, Err(PathError::TooFast { speed }) if speed > 100.0), "{leaps:?}");
         let endless = TouchingPath::within(square, 1e9, 2, |_| true);
         assert!(matches!(endless, Err(PathError::Setting { field: "duration", .. })), "{endless:?}");
         let broken = TouchingPath::within(|u, v| ([u, v, f64::NAN], [0.0, 0.0, 1.0]), 5.0, 2, |_| true);

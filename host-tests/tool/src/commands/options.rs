@@ -306,12 +306,9 @@ pub(super) fn path_over(
             Ok(path) => return Ok(path),
             Err(PathError::NoRoom) => {
                 let inside = points.iter().filter(|point| has_room(point.to_array())).count();
-                format!("{}, of the whole surface {} %", PathError::NoRoom, 100 * inside / points.len())
+                format!("{}; of the surface itself it holds {} %", PathError::NoRoom, 100 * inside / points.len())
             }
-            Err(error) => {
-                return Err(anyhow::Error::new(error)
-                    .context("the hand finds no path over the surface; move the model with --at"));
-            }
+            Err(error) => bail!("{name}: {error}; render one patch (--patch), or try another --seed"),
         }
     } else {
         let table = table_height(device).unwrap_or_default();
