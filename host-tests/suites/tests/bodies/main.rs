@@ -4,6 +4,7 @@
 
 mod anywhere;
 mod borders;
+mod bore;
 mod brushes;
 mod cold;
 mod converging;
