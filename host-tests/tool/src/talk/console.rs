@@ -15,6 +15,8 @@ use std::time::{Duration, Instant};
 /// Interval at which a force is repeated and the loop shown.
 const PUSHES: Duration = Duration::from_millis(30);
 const SHOWS: Duration = Duration::from_millis(100);
+/// How long the device may take at most to report that a released button has ended its force.
+const RELEASES: Duration = Duration::from_secs(1);
 /// How long one look at the device takes at most.
 const LOOK: Duration = Duration::from_millis(10);
 
@@ -197,10 +199,8 @@ impl<'a, L: Line> Console<'a, L> {
             }
             Asked::Feel(part) => self.device.feel(part)?,
             Asked::KeepFeel(keeps) => {
+                self.release()?;
                 let button = &self.button;
-                if let Some(button) = button {
-                    button(Press::Up);
-                }
                 let confirm = || match button {
                     Some(button) => {
                         button(Press::Confirm);
@@ -221,7 +221,11 @@ impl<'a, L: Line> Console<'a, L> {
             Asked::Press(pressed) => {
                 let button = self.button.as_ref();
                 let button = button.ok_or_else(|| anyhow::anyhow!("a real device has its own button: press that"))?;
-                button(if pressed { Press::Down } else { Press::Up });
+                if pressed {
+                    button(Press::Down);
+                } else {
+                    self.release()?;
+                }
             }
             Asked::Reset => {
                 if !self.button.as_ref().is_some_and(|button| button(Press::Reset)) {
@@ -271,6 +275,22 @@ impl<'a, L: Line> Console<'a, L> {
         }
         writeln!(output, "done")?;
         Ok(Step::GoesOn)
+    }
+
+    /// A simulated finger releases the button. The next line may need motors that are off, so this waits until the device
+    /// reports no force, up to [`RELEASES`]; a device that goes on refuses that line itself.
+    fn release(&mut self) -> Result<(), Error> {
+        let Some(button) = &self.button else { return Ok(()) };
+        button(Press::Up);
+        let began = self.device.now();
+        loop {
+            let runs = self.device.view(LOOK)?.phase == Phase::Running as u8;
+            // Reports from before the release are over within `SHOWS`.
+            let needed = if runs { RELEASES } else { SHOWS };
+            if self.device.now().saturating_duration_since(began) >= needed {
+                return Ok(());
+            }
+        }
     }
 
     /// The device's identity.

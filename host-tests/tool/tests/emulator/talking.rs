@@ -12,22 +12,29 @@ use std::time::Duration;
 const SESSION: &str = "wait 0.5\nwhere\nplace 0 0 0 -10\nwait 0.1\nwhere\nlimit 2\nupload 1 capped_box\npush 0 0 1\n\
                        wait 0.3\nwhere\nstop\nwhere\n";
 
+/// What a session with an emulated board prints.
+fn talk(arguments: &[&str], lines: &str) -> String {
+    let mut run = Command::new(env!("CARGO_BIN_EXE_palpate"))
+        .args(["talk", "--emulator", "m4"])
+        .args(arguments)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .expect("it starts");
+    run.stdin.take().expect("a pipe").write_all(lines.as_bytes()).expect("it reads");
+    let run = run.wait_with_output().expect("it ends");
+    let said = String::from_utf8_lossy(&run.stdout).into_owned();
+    println!("{said}");
+    assert!(run.status.success());
+    said
+}
+
 #[test]
 fn a_host_places_pushes_uploads_and_stops_an_emulated_board() {
     if !is_wanted("a_host_places_pushes_uploads_and_stops_an_emulated_board") {
         return;
     }
-    let mut run = Command::new(env!("CARGO_BIN_EXE_palpate"))
-        .args(["talk", "--emulator", "m4"])
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .spawn()
-        .expect("it starts");
-    run.stdin.take().expect("a pipe").write_all(SESSION.as_bytes()).expect("it reads");
-    let run = run.wait_with_output().expect("it ends");
-    let said = String::from_utf8_lossy(&run.stdout);
-    println!("{said}");
-    assert!(run.status.success());
+    let said = talk(&[], SESSION);
     let views: Vec<_> = said.lines().filter(|line| line.starts_with("at ")).collect();
     let [before, after, pushed, stopped] = views[..] else { panic!("four views") };
     let gap = |view: &str| -> f64 {
@@ -39,6 +46,21 @@ fn a_host_places_pushes_uploads_and_stops_an_emulated_board() {
     assert!(said.contains("4532 of 4532 bytes"));
     assert!(pushed.contains("force 0.00 0.00 1.00 N"), "{pushed}");
     assert!(stopped.ends_with("stopped: stopped by hand"), "{stopped}");
+}
+
+/// The list of `docs/howto/knob.md`, whose last line comes while the knob is under force: it is on its way before the
+/// device sees the button released.
+#[test]
+fn a_feel_is_kept_though_the_button_is_released_only_then() {
+    if !is_wanted("a_feel_is_kept_though_the_button_is_released_only_then") {
+        return;
+    }
+    let again = "press\nwait 0.5\nkeep-feel\n".repeat(7);
+    let said = talk(
+        &["--device", "knob"],
+        &format!("free\ndamping 0.3\nclicks 15 30 -5 5\nnotch 10 20 20\ndial 0.1\nkeep-feel\n{again}"),
+    );
+    assert_eq!(said.matches("kept: the knob starts with this feel").count(), 8);
 }
 
 #[test]
