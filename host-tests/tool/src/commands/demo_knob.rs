@@ -3,15 +3,16 @@
 use super::progress;
 use crate::commission::{Device, KeyHeld};
 use crate::firmware::{Board, Image, Link as _, LinkError, Program, Progress, SetUpError, Transport};
-use crate::knob::turning::{HostEnd, TICKS, Turned, curve, size, turn, way, worst_detent};
+use crate::knob::turning::{HostEnd, Turned, curve, free, size, slips_at, ticks, turn, way, worst_detent};
 use crate::knob::{
-    COMMUTATION, DIAL_ZERO, FEELS, KnobLine, MOTOR, NAMES, PROTECTION, Recording, SEARCH, SharedKnob, TOLD_OF_SUPPLY,
-    device, dial, record, recorded, servo,
+    COMMUTATION, DIAL_ZERO, FEELS, KnobLine, KnobServo, MOTOR, NAMES, PROTECTION, Recording, SEARCH, SharedKnob,
+    TOLD_OF_SUPPLY, device, dial, record, recorded, servo,
 };
 use crate::plot::{Area, Axes, Axis, FIGURE, Ink, Key, Mark, Svg, at_widths, draw};
 use crate::report::{Report, Section};
 use anyhow::Context;
 use palpate::device::Refusal;
+use palpate::render::{Feel, FeelPart, Wave};
 use palpate::servo::{Fault, Phase};
 use palpate_sim::plant::DialSettings;
 use std::fs;
@@ -20,6 +21,8 @@ use std::process::ExitCode;
 
 /// A run, and what it was.
 pub struct Run {
+    /// The loop's table, and its names.
+    table: (&'static [Feel], &'static [&'static str]),
     /// Every tick.
     pub turned: Vec<Turned>,
     /// The image, where there is one.
@@ -39,11 +42,10 @@ pub fn run(board: Board, host: bool, file: &Path, picture: Option<&Path>) -> any
     };
     let subtitle = format!("a knob on a motor with three phases, {on}");
     let figures = figures(&with, &without);
-    let sections = sections(&with.turned, &without.turned);
+    let sections = sections(&with, &without);
     Report { headline: ["palpate demo", &subtitle], link: None, figures: &figures, sections: &sections }.write(file)?;
     if let Some(picture) = picture {
-        fs::write(picture, drawn(&with.turned, &without.turned))
-            .with_context(|| format!("cannot write {}", picture.display()))?;
+        fs::write(picture, drawn(&with, &without)).with_context(|| format!("cannot write {}", picture.display()))?;
     }
     println!("palpate demo: {subtitle}");
     for (name, value) in &figures {
@@ -59,9 +61,15 @@ pub fn run(board: Board, host: bool, file: &Path, picture: Option<&Path>) -> any
 /// None.
 pub fn on_host(compensated: bool) -> anyhow::Result<Run> {
     let cogging = recorded::COGGING.filter(|_| compensated);
-    let mut end = HostEnd::new(servo(Box::leak(Box::new(device(cogging))), SEARCH, TOLD_OF_SUPPLY));
-    let turned = turn(dial(), |sensors| Ok(end.exchange(sensors)), |_| ())?;
-    Ok(Run { turned, image: None })
+    let servo = servo(Box::leak(Box::new(device(cogging))), SEARCH, TOLD_OF_SUPPLY);
+    through(servo, (&FEELS, &NAMES))
+}
+
+/// A loop with this table.
+fn through(servo: KnobServo, table: (&'static [Feel], &'static [&'static str])) -> anyhow::Result<Run> {
+    let mut end = HostEnd::new(servo);
+    let turned = turn(dial(), table.0, |sensors| Ok(end.exchange(sensors)), |_| ())?;
+    Ok(Run { table, turned, image: None })
 }
 
 /// On an emulated board, or on the host where no emulator can be had.
@@ -80,24 +88,37 @@ pub fn on_board(board: Board, compensated: bool) -> anyhow::Result<Run> {
         Err(error) => return Err(error.into()),
     };
     let mut emulator = program.start_over(Transport::Fifo)?;
-    let bar = progress::ticks(TICKS);
+    let bar = progress::ticks(ticks(&FEELS));
     let exchange = |sensors: &_| -> Result<_, LinkError> { emulator.exchange(sensors) };
-    let turned = turn(dial(), exchange, |done| bar.tell(done))?;
-    Ok(Run { turned, image: Some(program.image.clone()) })
+    let turned = turn(dial(), &FEELS, exchange, |done| bar.tell(done))?;
+    Ok(Run { table: (&FEELS, &NAMES), turned, image: Some(program.image.clone()) })
 }
 
-/// Pitch, radians, and torque, N·m, of the first feel's detents.
-fn detents() -> (f64, f64) {
-    FEELS[0].detents.map_or((1.0, 1.0), |wave| (f64::from(wave.pitch_rad), f64::from(wave.torque_n_m)))
+/// The first feel of a table that has detents and damping alone.
+fn detents(feels: &[Feel]) -> Option<(u8, Wave)> {
+    feels.iter().zip(0..).find_map(|(feel, index)| {
+        let detents = feel.detents?;
+        let rest = feel.with(FeelPart::Detents(None)).with(FeelPart::Damping(0.0));
+        (rest == Feel::FREE).then_some((index, detents))
+    })
 }
 
 fn figures(with: &Run, without: &Run) -> Vec<(&'static str, String)> {
-    let (turned, plain) = (&with.turned, &without.turned);
-    let (pitch, torque) = detents();
-    let off = |turned: &[Turned]| 100.0 * worst_detent(&curve(turned, 0), pitch, torque);
-    let free = FEELS.len() as u8 - 1;
-    let [rms, most] = size(&curve(turned, free)).map(|torque| 1e3 * torque);
-    let [plain_rms, plain_most] = size(&curve(plain, free)).map(|torque| 1e3 * torque);
+    let ((feels, _), turned, plain) = (with.table, &with.turned, &without.turned);
+    let detents = detents(feels).map(|(feel, wave)| {
+        let (pitch, torque) = (f64::from(wave.pitch_rad), f64::from(wave.torque_n_m));
+        let off = |turned: &[Turned]| 100.0 * worst_detent(&curve(turned, feel), pitch, torque);
+        let (off, plain) = (off(turned), off(plain));
+        format!("off by at most {off:.2} % of {:.0} mN·m; {plain:.1} % without the map", 1e3 * torque)
+    });
+    let detents = detents.unwrap_or_else(|| "not measured: no feel of the table has detents alone".to_owned());
+    let cogging = |turned: &[Turned]| match free(feels) {
+        Some(free) => {
+            let [rms, most] = size(&curve(turned, free)).map(|torque| 1e3 * torque);
+            format!("{rms:.2} mN·m rms, {most:.2} at most")
+        }
+        None => "not measured: no feel of the table is free".to_owned(),
+    };
     let aligned = turned.iter().position(|sample| sample.report.phase == Phase::Armed as u8);
     let fault = turned.iter().position(|sample| sample.report.fault != 0);
     let told = fault.map_or_else(
@@ -110,6 +131,9 @@ fn figures(with: &Run, without: &Run) -> Vec<(&'static str, String)> {
                 return why.map_or_else(|| "not aligned".to_owned(), |why| format!("not aligned: {why}"));
             }
             let name = Fault::from_code(turned[tick].report.fault).map_or_else(String::new, |fault| fault.to_string());
+            if tick < slips_at(feels) as usize {
+                return format!("none planted: {name} after {:.2} s", turned[tick].time);
+            }
             format!(
                 "planted, magnet slipped: {name}; {}",
                 if quiet { "no current from that tick on" } else { "STILL DRIVEN" }
@@ -120,17 +144,9 @@ fn figures(with: &Run, without: &Run) -> Vec<(&'static str, String)> {
         ("ticks", format!("{} at {} Hz", turned.len(), crate::knob::SETTINGS.rate_hz)),
         ("motor", motor()),
         ("rotor aligned", aligned.map_or_else(|| "no".to_owned(), |tick| format!("after {:.2} s", turned[tick].time))),
-        (
-            "detents",
-            format!(
-                "off by at most {:.2} % of {:.0} mN·m; {:.1} % without the map",
-                off(turned),
-                1e3 * torque,
-                off(plain)
-            ),
-        ),
-        ("cogging", format!("{plain_rms:.2} mN·m rms, {plain_most:.2} at most")),
-        ("with the map", format!("{rms:.2} mN·m rms, {most:.2} at most")),
+        ("detents", detents),
+        ("cogging", cogging(plain)),
+        ("with the map", cogging(turned)),
         ("fault", told),
         ("state hash", format!("{:08x}", hash(turned))),
     ];
@@ -173,14 +189,15 @@ fn in_degrees(curve: &[(f64, f64)]) -> Line {
 }
 
 /// The table's torque at the angles of a curve.
-fn asked(feel: u8, curve: &[(f64, f64)]) -> Line {
-    let feel = &FEELS[usize::from(feel)];
+fn asked(feel: &Feel, curve: &[(f64, f64)]) -> Line {
     let mut click = 0;
     let torque = |angle: f64, click: &mut i32| f64::from(feel.torque(click, angle as f32, 0.0));
     curve.iter().map(|(angle, _)| (angle.to_degrees(), 1e3 * torque(*angle, &mut click))).collect()
 }
 
-fn sections(with: &[Turned], without: &[Turned]) -> Vec<Section> {
+fn sections(with: &Run, without: &Run) -> Vec<Section> {
+    let ((feels, names), cogging) = (with.table, cogging(with, without));
+    let with = &with.turned;
     let section = |heading: &str, note: &str, axes: [&str; 2], lines: &[Curve<'_>]| Section {
         heading: heading.to_owned(),
         note: note.to_owned(),
@@ -188,18 +205,20 @@ fn sections(with: &[Turned], without: &[Turned]) -> Vec<Section> {
         table: None,
     };
     let angle = ["angle, degrees", "torque, mN·m"];
-    let mut sections: Vec<Section> = (NAMES.into_iter().enumerate().take(FEELS.len() - 1))
-        .map(|(index, name)| {
-            let feel = index as u8;
+    let mut sections: Vec<Section> = (feels.iter().zip(names).zip(0..))
+        .filter(|(_, index)| free(feels) != Some(*index))
+        .map(|((of, name), feel)| {
             let ways = [0, 1].map(|back| in_degrees(&way(with, feel, back)));
             let note = "Torque at the shaft on the way there and back, and what the table asks of a dial at rest.";
             let [there, back] = ways;
-            let asked = asked(feel, &curve(with, feel));
+            let asked = asked(of, &curve(with, feel));
             let lines = [("there", Ink::Blue, there), ("back", Ink::Red, back), ("asked", Ink::Green, asked)];
             section(name, note, angle, &lines)
         })
         .collect();
-    sections.push(section("cogging", "Torque with nothing asked for.", angle, &cogging(with, without)));
+    if let Some(cogging) = &cogging {
+        sections.push(section("cogging", "Torque with nothing asked for.", angle, cogging));
+    }
     let over_time = |of: fn(&Turned) -> f64| -> Line { with.iter().map(|sample| (sample.time, of(sample))).collect() };
     sections.push(section(
         "phases",
@@ -221,22 +240,30 @@ fn sections(with: &[Turned], without: &[Turned]) -> Vec<Section> {
 /// A name, an ink and points.
 type Curve<'a> = (&'a str, Ink, Line);
 
-fn cogging(with: &[Turned], without: &[Turned]) -> [Curve<'static>; 2] {
-    let free = FEELS.len() as u8 - 1;
-    [
-        ("without the map", Ink::Red, in_degrees(&curve(without, free))),
-        ("with the map", Ink::Blue, in_degrees(&curve(with, free))),
-    ]
+fn cogging(with: &Run, without: &Run) -> Option<[Curve<'static>; 2]> {
+    let free = free(with.table.0)?;
+    Some([
+        ("without the map", Ink::Red, in_degrees(&curve(&without.turned, free))),
+        ("with the map", Ink::Blue, in_degrees(&curve(&with.turned, free))),
+    ])
 }
 
-/// The detents and the cogging, one below the other.
-fn drawn(with: &[Turned], without: &[Turned]) -> String {
-    let felt = curve(with, 0);
-    let detents = [("asked", Ink::Green, asked(0, &felt)), ("at the shaft", Ink::Blue, in_degrees(&felt))];
+/// The detents and the cogging, one below the other, as far as they are measured.
+fn drawn(with: &Run, without: &Run) -> String {
+    let detents = detents(with.table.0).map(|(feel, _)| {
+        let felt = curve(&with.turned, feel);
+        let asked = asked(&with.table.0[usize::from(feel)], &felt);
+        [("asked", Ink::Green, asked), ("at the shaft", Ink::Blue, in_degrees(&felt))]
+    });
     draw(FIGURE, 560.0, |svg, area| {
         let (upper, lower) = area.split_at(280.0);
-        chart(svg, upper, "detents", ["angle, degrees", "torque, mN·m"], &detents);
-        chart(svg, lower, "cogging", ["angle, degrees", "torque, mN·m"], &cogging(with, without));
+        let axes = ["angle, degrees", "torque, mN·m"];
+        if let Some(detents) = &detents {
+            chart(svg, upper, "detents", axes, detents);
+        }
+        if let Some(cogging) = &cogging(with, without) {
+            chart(svg, lower, "cogging", axes, cogging);
+        }
     })
 }
 
@@ -268,4 +295,44 @@ pub fn recorded_of(settings: DialSettings) -> anyhow::Result<Recording> {
     let mut knob = SharedKnob::new(settings);
     let mut device = Device::connect(Box::new(KnobLine::new(&knob)), Box::new(KeyHeld))?;
     record(&mut device, &mut knob)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::knob::{LET_GO, SETTINGS, homing};
+    use palpate::servo::{Config, Knob, Servo};
+
+    /// The boards' table and a feel after its free one.
+    static MORE: [Feel; FEELS.len() + 1] = {
+        let mut feels = [Feel { damping_n_m_s_per_rad: 2e-3, ..Feel::FREE }; FEELS.len() + 1];
+        let mut index = 0;
+        while index < FEELS.len() {
+            feels[index] = FEELS[index];
+            index += 1;
+        }
+        feels
+    };
+
+    #[test]
+    fn a_feel_after_the_free_one_changes_no_other_figure() {
+        static KNOB: Knob = Knob::new(&MOTOR, &MORE, LET_GO);
+        let more = |cogging| {
+            let device = Box::leak(Box::new(device(cogging)));
+            let config = Config { settings: SETTINGS, homing: Some(homing(SEARCH)), ..Config::DEFAULT };
+            let servo = Servo::protected(device, &KNOB, TOLD_OF_SUPPLY, config);
+            let names: Vec<_> = NAMES.into_iter().chain(["mine"]).collect();
+            through(servo, (&MORE, names.leak())).expect("it runs")
+        };
+        let (with, without) = (more(recorded::COGGING), more(None));
+        let usual = figures(&on_host(true).expect("it runs"), &on_host(false).expect("it runs"));
+        let found = figures(&with, &without);
+        for name in ["detents", "cogging", "with the map", "fault"] {
+            let [usual, found] = [&usual, &found].map(|of| of.iter().find(|(of, _)| *of == name).expect("a figure"));
+            assert_eq!(usual, found);
+        }
+        let headings: Vec<_> = sections(&with, &without).into_iter().map(|section| section.heading).collect();
+        let felt = NAMES.into_iter().filter(|name| *name != "free").chain(["mine", "cogging", "phases"]);
+        assert_eq!(headings, felt.collect::<Vec<_>>());
+    }
 }

@@ -1,9 +1,10 @@
 //! A hand that turns the knob through every feel, and the measurements during that.
 
-use super::{DIAL_ZERO, FEELS, KnobServo, KnobState, MODULATION, SEARCH, SETTINGS, report, widths, widths_of};
+use super::{DIAL_ZERO, KnobServo, KnobState, MODULATION, SEARCH, SETTINGS, report, widths, widths_of};
 use crate::firmware::LinkError;
 use palpate::device::Counts;
 use palpate::device::sensor::Frozen;
+use palpate::render::Feel;
 use palpate::servo::{Event, Input};
 use palpate::wire::{Report, Sensors};
 use palpate_sim::plant::{Dial, DialSettings, Fingers, MagneticFault};
@@ -23,8 +24,20 @@ const AFTER: u32 = 400;
 /// By how many counts it slips.
 const SLIP: i32 = 900;
 
+/// The tick at which the magnet slips, after a way there and back in each feel.
+pub const fn slips_at(feels: &[Feel]) -> u32 {
+    UNTIL_FELT + feels.len() as u32 * (BETWEEN + 2 * WAY)
+}
+
 /// Ticks of a whole run.
-pub const TICKS: u32 = UNTIL_FELT + FEELS.len() as u32 * (BETWEEN + 2 * WAY) + AFTER;
+pub const fn ticks(feels: &[Feel]) -> u32 {
+    slips_at(feels) + AFTER
+}
+
+/// The feel of a table that has no part, in which the cogging is measured and the magnet slips.
+pub fn free(feels: &[Feel]) -> Option<u8> {
+    feels.iter().position(|feel| *feel == Feel::FREE).map(|index| index as u8)
+}
 
 /// One tick as both ends saw it.
 #[derive(Clone, Copy, Debug)]
@@ -45,20 +58,22 @@ pub struct Turned {
     pub report: Report,
 }
 
-/// Turns a dial through every feel, there and back, and lets its magnet slip at the end. `exchange` passes the sensors
+/// Turns a dial through every feel of the loop's table, there and back, and lets its magnet slip at the end. `exchange` passes the sensors
 /// to the loop.
 ///
 /// # Errors
 /// An error of the link.
 pub fn turn(
     settings: DialSettings,
+    feels: &[Feel],
     mut exchange: impl FnMut(&Sensors) -> Result<Report, LinkError>,
     mut progress: impl FnMut(u32),
 ) -> Result<Vec<Turned>, LinkError> {
     let mut dial = Dial::new(settings, f64::from(SETTINGS.rate_hz));
-    let mut turned = Vec::with_capacity(TICKS as usize);
-    for tick in 0..TICKS {
-        let (feel, way) = grip(&mut dial, tick);
+    let ticks = ticks(feels);
+    let mut turned = Vec::with_capacity(ticks as usize);
+    for tick in 0..ticks {
+        let (feel, way) = grip(&mut dial, feels, tick);
         // A sensor that does not answer is one that says what cannot be.
         let counts = [dial.counts().unwrap_or(i32::MIN), i32::from(feel), (dial.supply_volts() * 1e3) as i32];
         let report = exchange(&Sensors { tick, counts, enable: true })?;
@@ -78,17 +93,16 @@ pub fn turn(
 }
 
 /// The hand's action at a tick, the chosen feel, and the current way.
-fn grip(dial: &mut Dial, tick: u32) -> (u8, Option<usize>) {
+fn grip(dial: &mut Dial, feels: &[Feel], tick: u32) -> (u8, Option<usize>) {
     let Some(felt) = tick.checked_sub(UNTIL_FELT) else { return (0, None) };
-    let feels = FEELS.len() as u32;
     let (index, within) = (felt / (BETWEEN + 2 * WAY), felt % (BETWEEN + 2 * WAY));
-    if index >= feels {
-        if felt == feels * (BETWEEN + 2 * WAY) {
+    if tick >= slips_at(feels) {
+        if tick == slips_at(feels) {
             dial.spoil(Some(MagneticFault::Slipped(SLIP)));
         }
-        return (FEELS.len() as u8 - 1, None);
+        return (free(feels).unwrap_or(feels.len() as u8 - 1), None);
     }
-    let ends = FEELS.get(index as usize).and_then(|feel| feel.ends);
+    let ends = feels.get(index as usize).and_then(|feel| feel.ends);
     let far = ends.map_or(FAR, |ends| f64::from(ends.between_rad[1] - ends.between_rad[0]) + 2.0 * INTO_STOPS);
     let rate = far / f64::from(WAY) * f64::from(SETTINGS.rate_hz);
     let start = DIAL_ZERO - 0.5 * far;
