@@ -5,7 +5,7 @@ use super::output::write_whole;
 use super::suits::{homing_instead, suits};
 use super::{bake, long_calls, options};
 use crate::commission::RATE;
-use crate::firmware::{self, AnyBoard, Board, Kind, Place, Progress, SetUpError, Toolchain, choose_body};
+use crate::firmware::{self, AnyBoard, BenchBoard, Board, Kind, Place, Progress, SetUpError, Toolchain, choose_body};
 use crate::models::ModelFile;
 use crate::{devices, repository};
 use anyhow::{Context, bail, ensure};
@@ -154,7 +154,14 @@ impl Arguments {
         let named = self.after("--bin").chain(joined).chain(self.accepts().then_some("accept"));
         let all =
             self.cargo.iter().map(String::as_str).filter(|argument| ["--bins", "--all-targets"].contains(argument));
-        let mut missing = named.filter(|name| Board::ON_CORTEX_F.contains(name)).chain(all);
+        let named: Vec<&str> = named.collect();
+        let is_elsewhere = matches!(self.board, AnyBoard::Bench(board) if board != BenchBoard::Stm32g4);
+        ensure!(
+            !(is_elsewhere && named.contains(&"knob")),
+            "knob: {} has none; the knob is built for stm32g4 only",
+            self.board.name()
+        );
+        let mut missing = named.into_iter().filter(|name| Board::ON_CORTEX_F.contains(name)).chain(all);
         if let Some(missing) = missing.next().filter(|_| self.has_few_programs()) {
             bail!(
                 "{missing}: on {} there are {} without a feature; the others need the interrupts of m4, m7 or m33",
