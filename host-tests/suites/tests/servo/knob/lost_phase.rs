@@ -1,4 +1,4 @@
-//! A phase that is lost while the knob runs. Nothing sees it, so it has to be harmless.
+//! A phase that is lost while nothing watches the currents, as below `open_a`: it has to be harmless.
 
 use palpate::servo::Fault;
 use palpate_sim::knob::{FEELS, HostKnob, NAMES};
