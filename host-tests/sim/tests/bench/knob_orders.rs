@@ -90,6 +90,9 @@ fn a_host_chooses_what_is_felt_and_is_told_what_there_is_not() {
         assert_eq!(device.order(number, order), Some(Refused::Command(SceneError::NotOffered)));
     }
     assert_eq!((device.feel(), device.rig.fault(), device.rig.enabled()), (last, None, true));
+    // The host falls silent: two seconds, where an arm's board waits for a tenth of one.
+    (0..8_000).for_each(|_| device.tick());
+    assert_eq!((device.feel(), device.rig.fault(), device.rig.enabled()), (last, None, true));
 }
 
 /// Any part, up to the device's limits, near this angle.
