@@ -18,8 +18,8 @@ class Knob:
     SettingsError, which names the part, the sum that it asks for, the limit and the remedy, and change nothing. Any other
     failure raises LinkError.
 
-    A device that watches its link stops if it hears nothing: call a method at least every third of its timeout, 0.1 s
-    on the boards.
+    The boards' knob goes on without its host. A device that watches its link stops if it hears nothing: call a method at
+    least every third of its timeout.
 
     >>> knob = Knob.simulated()
     >>> knob.free()
@@ -47,6 +47,8 @@ class Knob:
     @classmethod
     def open(cls, port: str, *, baud: int = 500_000) -> Knob:
         """The knob at a serial port, such as ``/dev/ttyACM0``; `baud`, Bd. Its own button gives force."""
+        if not 0 < baud < 2**32:
+            raise _native.LinkError(f"{port}: {baud} Bd is no speed of a port")
         return cls(_native.Knob.open(port, baud))
 
     def free(self) -> None:
@@ -61,7 +63,7 @@ class Knob:
         self, pitch: float, torque: float, first: int, last: int, snap: float = 0.55, damping: float | None = None
     ) -> None:
         """Detents that snap, `pitch` apart, rad, numbered from `first` to `last`: each pulls back with up to `torque`,
-        N·m, until the dial is `snap` pitches off; `damping`, N·m·s/rad, by default as much as they need."""
+        N·m, until the dial is `snap` pitches off, 1/2 to 1; `damping`, N·m·s/rad, by default as much as they need."""
         own = () if damping is None else (damping,)
         self._native.feel("clicks", (pitch, torque, first, last, snap, *own))
 
@@ -97,6 +99,8 @@ class Knob:
 
     def choose(self, index: int) -> None:
         """Makes a feel of the knob's table the active one; the index after its last is the one that was set here."""
+        if not 0 <= index <= 255:
+            raise _native.SettingsError(f"there is no feel {index}: choose 0 to 255")
         self._native.choose(index)
 
     def keep(self) -> None:
