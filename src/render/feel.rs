@@ -125,7 +125,7 @@ pub enum FeelPart {
 pub enum FeelError {
     /// A pitch that is not between 1e-4 rad and half a turn, a centre beyond a turn, or a number that is not finite.
     Detents,
-    /// See [`super::DetentsError`].
+    /// A pitch as of detents, or as [`super::DetentsError`] says.
     Clicks,
     /// As detents.
     Texture,
@@ -137,7 +137,7 @@ pub enum FeelError {
     Damping,
     /// A torque that is negative or not finite, or a rate that is not positive and finite.
     Friction,
-    /// A width that is not between 0 and half a turn, or a number that is not finite.
+    /// A width that is not between 1e-4 rad and half a turn, or a number that is negative or not finite.
     Notch,
 }
 
@@ -146,21 +146,21 @@ impl FeelError {
     pub const fn message(self) -> &'static str {
         match self {
             Self::Detents => {
-                "detents need a pitch of at most half a turn, a centre within a turn, and a torque that is not negative"
+                "detents need a pitch from 1e-4 rad to half a turn, a centre within a turn, and no negative torque"
             }
-            Self::Clicks => "clicks need a pitch of at most half a turn, finite forces, and detents in order",
+            Self::Clicks => {
+                "clicks need a pitch from 1e-4 rad to half a turn, a snap from 0.5 to 1, no negative force, first <= last"
+            }
             Self::Texture => {
-                "a texture needs a pitch of at most half a turn, a centre within a turn, and a torque that is not negative"
+                "a texture needs a pitch from 1e-4 rad to half a turn, a centre within a turn, and no negative torque"
             }
             Self::Spring => {
-                "a spring needs a finite rest, a stiffness and a maximum torque that are finite and not negative"
+                "a spring needs a finite rest, and a stiffness and maximum torque that are finite and not negative"
             }
             Self::Ends => "end stops must be in order, with a stiffness and a damping that are finite and not negative",
-            Self::Damping => "the damping must be finite and not negative",
+            Self::Damping => "the feel's damping must be finite and not negative",
             Self::Friction => "friction needs a torque that is finite and not negative, and a rate that is positive",
-            Self::Notch => {
-                "a click needs a finite position, a width of at most half a turn, and a torque that is not negative"
-            }
+            Self::Notch => "a notch needs a finite place, a width from 1e-4 rad to half a turn, and no negative torque",
         }
     }
 }

@@ -56,12 +56,16 @@ def test_a_setting_beyond_the_motor_is_refused_with_its_limit_and_changes_nothin
     knob.detents(pitch=TAU / 12, torque=0.03)
     _, before = held(knob, 0.05)
     for part, numbers, says in [
-        ("spring", (0.2, 0.03), r"spring was refused .* up to 60\.00 mN·m, .* limit is 56\.00 mN·m: weaken"),
-        ("detents", (TAU / 60, 0.05), r"detents was .* stiff as 3000\.00 mN·m/rad, and .* is 1600\.00 mN·m/rad: weaken"),
-        ("damping", (4e-3,), r"damping was refused .* 4\.00 mN·m·s/rad, and .* 3\.20 mN·m·s/rad: weaken .*; friction damps"),
+        ("spring", (0.2, 0.03), r"spring was refused .* up to 60\.00 mN·m, .* limit is 56\.00 mN·m \(max_force_n\): weaken"),
+        ("detents", (TAU / 60, 0.05), r"detents was .* stiff as 3000\.00 mN·m/rad, and .* is 1600\.00 mN·m/rad \(max_stiffness_n_per_m\): weaken"),
+        ("damping", (4e-3,), r"damping was refused .* 4\.00 mN·m·s/rad, and .* 3\.20 mN·m·s/rad \(max_damping_n_s_per_m\): weaken .*; friction damps"),
         ("spring", (0.02, 0.01, 3.0), r"spring was refused .* turn the dial by .* rad .*°., and .* 0\.79 rad: turn"),
         ("friction", (float("nan"),), r"friction was refused .* finite"),
-        ("notch", (0.0, 4.0, 0.01), r"notch was refused .* at most half a turn"),
+        ("notch", (0.0, 4.0, 0.01), r"notch was refused .* a width from 1e-4 rad to half a turn"),
+        ("detents", (0.0, 0.005), r"detents was refused .* a pitch from 1e-4 rad to half a turn"),
+        ("clicks", (0.2, 0.01, -5, 5, 1.5), r"clicks was refused .* a snap from 0\.5 to 1"),
+        ("choose", (-1,), r"there is no feel -1"),
+        ("choose", (256,), r"there is no feel 256"),
         ("notch", (0.1, 0.1, 0.015), r"notch was refused .* would ring: .* damped by 0\.30 .* need 0\.92; raise the damping first"),
     ]:
         with pytest.raises(palpate.SettingsError, match=says):

@@ -6,7 +6,7 @@ use crate::running::{is_wanted, program, run};
 use palpate::device::drive::Feed;
 use palpate::device::presets::{GIMBAL_KNOB, GIMBAL_KNOB_PROTECTION as PROTECTION};
 use palpate::device::{Counts, Device, Dial, Homing, Reference};
-use palpate::render::{Detents, DialFriction, Ends, Feel, FeelError, FeelPart, Notch, Spring, Wave};
+use palpate::render::{Detents, DialFriction, Ends, Feel, FeelPart, Notch, Spring, Wave};
 use palpate::servo::{Config, Fault, Input, Knob, KnobError, Output, Servo, Settings};
 use rand::{Rng, RngExt as _, SeedableRng};
 use rand_pcg::Pcg64;
@@ -98,14 +98,7 @@ fn any_part(random: &mut Pcg64, near: f32) -> (FeelPart, u32, Vec<u32>) {
 fn in_words(refused: Result<(), KnobError>) -> &'static str {
     match refused {
         Ok(()) => "done",
-        Err(KnobError::Feel(FeelError::Detents)) => "detents need a pitch",
-        Err(KnobError::Feel(FeelError::Clicks)) => "clicks need a pitch",
-        Err(KnobError::Feel(FeelError::Texture)) => "a texture needs a pitch",
-        Err(KnobError::Feel(FeelError::Spring)) => "a spring needs",
-        Err(KnobError::Feel(FeelError::Ends)) => "end stops must",
-        Err(KnobError::Feel(FeelError::Damping)) => "the feel's damping must",
-        Err(KnobError::Feel(FeelError::Friction)) => "friction needs",
-        Err(KnobError::Feel(FeelError::Notch)) => "a notch needs",
+        Err(KnobError::Feel(error)) => error.message(),
         Err(KnobError::Stiffness { .. }) => "the feel is stiffer than max_stiffness",
         Err(KnobError::Damping { .. }) => "the feel damps more than max_damping",
         Err(KnobError::Torque { .. }) => "the feel's torques add up to more than max_force",
