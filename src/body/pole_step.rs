@@ -61,7 +61,7 @@ impl<D: Displacement> Body<'_, D> {
 
     /// The vertex of the pole at these parameters, if they are at a pole.
     #[inline]
-    pub(super) fn pole_at(&self, face: &Face, [u, v]: [f32; 2]) -> Option<u16> {
+    pub(crate) fn pole_at(&self, face: &Face, [u, v]: [f32; 2]) -> Option<u16> {
         let near = at_pole(&face.patch, self.size);
         face.sides.iter().zip([u, 1.0 - u, v, 1.0 - v]).find_map(|(side, away)| match side {
             Side::Pole { vertex } if away <= near => Some(*vertex),

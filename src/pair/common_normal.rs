@@ -5,7 +5,6 @@
 //! come from the support points of sampled normals. Regular through contact where the curvatures do not both vanish.
 
 use super::step::{Foot, Pair};
-use super::tool::unit;
 use crate::body::{Body, EdgeKind};
 use crate::math::{Vec3, saturate};
 use crate::track::Placement;
@@ -41,8 +40,8 @@ pub(super) fn follow(
         *evaluations += 2;
     }
     let difference = pair.difference(placement);
-    let normal = unit(pair.a.normal(body));
-    let other = placement.direction_to_a(unit(pair.b.normal(core)));
+    let normal = pair.a.unit_normal(body);
+    let other = placement.direction_to_a(pair.b.unit_normal(core));
     let depth = difference.dot(normal);
     let (slide, mismatch) = (difference - normal * depth, normal + other);
     let solved = SOLVED * body.size();
@@ -55,7 +54,7 @@ pub(super) fn locate(body: &Body, core: &Body, placement: &Placement, evaluation
     let mut starts: [Option<(f32, Pair)>; STARTS] = [None; STARTS];
     for a in samples(body) {
         *evaluations += 1;
-        let normal = unit(a.normal(body));
+        let normal = a.unit_normal(body);
         let towards = placement.direction_to_b(-normal);
         let mut farthest: Option<(f32, Foot)> = None;
         for b in samples(core) {

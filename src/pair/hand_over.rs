@@ -8,6 +8,8 @@ use crate::math::Vec3;
 
 /// A point of a seam is on both faces up to this, times the body's size: the tolerance of coincident borders.
 const SEAM: f32 = 2.0e-6;
+/// Times the size squared: a normal that is longer is not that of a pole.
+const SHORT_NORMAL: f32 = 1.0e-3;
 
 impl Foot {
     /// Hands over to the face that lets the point go on `towards` the other one, if its own does not. At most one
@@ -85,10 +87,25 @@ impl Foot {
         is_same_point
     }
 
+    /// The outward unit normal; at a pole, where the tangent around it is rounding, that of the pole's vertex.
+    pub(super) fn unit_normal(&self, body: &Body) -> Vec3 {
+        let (normal, size) = (self.normal(body), body.size());
+        // That of a pole is far shorter.
+        let shortest = SHORT_NORMAL * size * size;
+        if normal.length_squared() > shortest * shortest {
+            return unit(normal);
+        }
+        let pole = body.faces().get(usize::from(self.face)).and_then(|face| body.pole_at(face, self.parameters));
+        match pole.and_then(|vertex| body.vertices().get(usize::from(vertex))) {
+            Some(vertex) if vertex.outward != Vec3::ZERO => vertex.outward,
+            _ => unit(normal),
+        }
+    }
+
     /// The sum of the outward unit normals of the faces that meet at the point: at a rest outside a convex body the
     /// other point is on this side of it, however sharp the edge. At a vertex the table has it.
     pub(super) fn outward(&self, body: &Body) -> Vec3 {
-        let own = unit(self.normal(body));
+        let own = self.unit_normal(body);
         let Some(face) = body.faces().get(usize::from(self.face)) else { return own };
         let [side_u, side_v] = [0, 1].map(|axis| side_at(self.parameters[axis]));
         let number = match (side_u, side_v) {
@@ -97,9 +114,6 @@ impl Foot {
             (None, Some(upper)) => 2 + upper,
         };
         match face.sides.get(number) {
-            Some(Side::Pole { vertex }) => {
-                body.vertices().get(usize::from(*vertex)).map_or(own, |vertex| vertex.outward)
-            }
             Some(Side::Edge { edge: index, reversed, .. }) => {
                 let Some(edge) = body.edges().get(usize::from(*index)) else { return own };
                 if let (Some(_), Some(upper)) = (side_u, side_v) {
@@ -111,9 +125,9 @@ impl Foot {
                 let t = if *reversed { 1.0 - along } else { along };
                 let of = edge.neighbour_of_side(Feature::Face(self.face), number);
                 let beyond = body.position_on_face(of, t).map(|(face, at)| Self::on(body, face, at));
-                own + beyond.map_or(Vec3::ZERO, |beyond| unit(beyond.normal(body)))
+                own + beyond.map_or(Vec3::ZERO, |beyond| beyond.unit_normal(body))
             }
-            None => own,
+            Some(Side::Pole { .. }) | None => own,
         }
     }
 }
