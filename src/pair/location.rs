@@ -16,6 +16,8 @@ use crate::track::Placement;
 pub(super) const MAX_STEPS: u8 = 48;
 /// Steps without a fall of the distance after which a descent ends.
 const MAX_STALLS: u8 = 12;
+/// Steps at rest in a row after which a descent ends.
+const RESTS: u8 = 3;
 /// Rounds of projections in turn before a descent.
 const ROUNDS: u8 = 3;
 /// Maximum ticks of a loop's search; the audit does the rest.
@@ -32,6 +34,8 @@ pub(super) struct Location {
     is_at_rest: bool,
     /// Whether the signs of the normals prove the pair.
     is_proved: bool,
+    /// Whether the descent is that from a corner or an edge, which were nearer.
+    is_again: bool,
     visited: u16,
     /// Ticks of a loop in the search.
     searched: u16,
@@ -79,6 +83,7 @@ impl Location {
         descent: Descent { rests: 0, stalls: 0, steps: 0, least: 0.0 },
         is_at_rest: false,
         is_proved: false,
+        is_again: false,
         visited: 0,
         searched: 0,
         status: ToolStatus::AtRest,
@@ -167,8 +172,13 @@ impl Location {
             Stage::Descend => {
                 let Some(rests) = self.descent.step(scene, &mut state.pair) else { return Stage::Descend };
                 self.is_at_rest = rests;
-                self.is_proved = scene.body.is_convex() && rests && scene.is_global(&state.pair);
-                Stage::Corners
+                // A descent that has stalled proves nothing.
+                self.is_proved = self.descent.rests() && scene.body.is_convex() && scene.is_global(&state.pair);
+                match (self.is_again, self.is_proved) {
+                    (false, _) => Stage::Corners,
+                    (true, false) => Stage::Search,
+                    (true, true) => Stage::Part,
+                }
             }
             Stage::Corners => {
                 let a = state.pair.a;
@@ -275,17 +285,22 @@ impl Location {
         }
     }
 
-    /// Makes the nearest of pair, corners and edges the pair, and searches what else there may be.
+    /// Makes the nearest of pair, corners and edges the pair, and searches what else there may be. Between flats that are
+    /// nearly parallel a pair that rests may be far from a corner that is nearer by more than rounding.
     fn compare(&mut self, scene: &Scene, state: &mut ToolWitness) -> Stage {
-        if self.is_proved {
-            return Stage::Part;
-        }
         let mut least = scene.distance(&state.pair) - NEARER * scene.body.size();
         for part in state.parts.iter().flatten() {
             if part.distance < least {
                 (least, self.is_at_rest) = (part.distance, false);
                 state.pair = part.pair;
             }
+        }
+        if self.is_proved {
+            return Stage::Part;
+        }
+        if scene.body.is_convex() && !self.is_at_rest {
+            (self.is_again, self.descent) = (true, Descent::start(scene, &state.pair));
+            return Stage::Descend;
         }
         Stage::Search
     }
@@ -336,14 +351,19 @@ impl Descent {
         Self { rests: 0, stalls: 0, steps: 0, least: scene.distance(pair) }
     }
 
-    /// One step. At the end, whether the pair rests.
+    /// Whether the last steps promised no fall of the distance.
+    const fn rests(&self) -> bool {
+        self.rests == RESTS
+    }
+
+    /// One step. At the end, whether the pair rests, or at least stays.
     fn step(&mut self, scene: &mut Scene, pair: &mut Pair) -> Option<bool> {
         self.rests = if scene.tick(pair) == Moved::AtRest { self.rests + 1 } else { 0 };
         let distance = scene.distance(pair);
         let falls = distance < self.least - NEARER * scene.body.size();
         (self.stalls, self.least) = if falls { (0, distance) } else { (self.stalls + 1, self.least) };
         self.steps += 1;
-        if self.rests == 3 || self.stalls == MAX_STALLS {
+        if self.rests() || self.stalls == MAX_STALLS {
             return Some(true);
         }
         (self.steps == MAX_STEPS).then_some(false)

@@ -118,7 +118,7 @@ impl Pair {
             Region::Solid { .. } => joint.plan(self, body, region, |shift| joint.bordered(shift)),
             Region::Surface(_) => joint.plan(self, body, region, |shift| joint.full(shift)),
         };
-        let Some((step, slope)) = plan else { return Moved::AtRest };
+        let Some((step, promise)) = plan else { return Moved::AtRest };
         let [u, v, r, s, _] = step;
         let moved = |at: [f32; 2], w: [f32; 2]| [at[0] + w[0], at[1] + w[1]];
         let [u, v] = moved(self.a.parameters, [u, v]).map(|parameter| saturate(parameter, 0.0, 1.0));
@@ -147,7 +147,7 @@ impl Pair {
             None => self.b.curved.surface.point = b,
         }
         let resolved = RESOLUTION * body.size();
-        if slope <= resolved * (sqrt(squared) + resolved) { Moved::AtRest } else { Moved::Nearer }
+        if promise <= resolved * (sqrt(squared) + resolved) { Moved::AtRest } else { Moved::Nearer }
     }
 }
 
@@ -261,7 +261,8 @@ impl<'a> Joint<'a> {
         Some(([step[0], step[1], step[2], step[3], 0.0], slope))
     }
 
-    /// The step with the largest promise, and its slope; `None` if no step promises anything.
+    /// The step with the largest proved promise, and the largest promise of a model; `None` if none promises anything.
+    /// Where the bounds allow but a small fraction of a step, the pair is not at rest.
     fn plan(
         &self,
         pair: &Pair,
@@ -270,25 +271,35 @@ impl<'a> Joint<'a> {
         minimiser: impl Fn(Option<f32>) -> Option<(Step, f32)>,
     ) -> Option<(Step, f32)> {
         let mut best: Option<(Step, f32, f32)> = None;
+        let (mut promise, mut is_full) = (0.0, false);
         if pair.halvings == 0 {
             for shift in SHIFTS {
                 let Some((step, slope)) = minimiser(Some(shift)) else { continue };
                 let share = self.share(&step, slope, pair, body, region);
-                if share >= 1.0 && slope > 0.0 {
+                is_full = share >= 1.0 && slope > 0.0;
+                if is_full && best.is_none() {
                     return Some((step, slope));
                 }
                 consider(&mut best, step, slope, share);
+                promise = largest(promise, slope);
+                // A larger shift takes a shorter step, and may promise less than the fraction of a longer one.
+                if is_full {
+                    break;
+                }
             }
         }
-        // Always positive: the tangents span a plane, or one of them is left out.
-        let (step, slope) = minimiser(None).unwrap_or(([0.0; SIZE], 0.0));
-        let mut share = self.share(&step, slope, pair, body, region);
-        if share <= 0.0 && best.is_none() {
-            // Without bounds (next to a pole) the evaluation decides.
-            share = 1.0;
+        if !is_full {
+            // Always positive: the tangents span a plane, or one of them is left out.
+            let (step, slope) = minimiser(None).unwrap_or(([0.0; SIZE], 0.0));
+            let mut share = self.share(&step, slope, pair, body, region);
+            if share <= 0.0 && best.is_none() {
+                // Without bounds (next to a pole) the evaluation decides.
+                share = 1.0;
+            }
+            consider(&mut best, step, slope, share / f32::from(1_u16 << pair.halvings));
+            promise = largest(promise, slope);
         }
-        consider(&mut best, step, slope, share / f32::from(1_u16 << pair.halvings));
-        best.map(|(step, slope, share)| (step.map(|w| share * w), share * slope))
+        best.map(|(step, _, share)| (step.map(|w| share * w), promise))
     }
 
     /// The fraction of a step that is proved to lower `R ‖ΔR‖` by half of that fraction of the slope; 1 if the full
@@ -342,6 +353,11 @@ fn remainder(patch: &SplinePatch, from: [f32; 2], [w_u, w_v]: [f32; 2]) -> (f32,
         + along(third.vvv, y * yy);
     let [beyond_u, beyond_v] = patch.beyond_knots(from, [from[0] + w_u, from[1] + w_v]);
     (twist, along(third.jump_uu, beyond_u) + along(third.jump_vv, beyond_v))
+}
+
+/// The larger number, or the one that is a number.
+fn largest(known: f32, other: f32) -> f32 {
+    if other > known { other } else { known }
 }
 
 fn consider(best: &mut Option<(Step, f32, f32)>, step: Step, slope: f32, share: f32) {

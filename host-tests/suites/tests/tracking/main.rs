@@ -7,6 +7,7 @@ mod guarantee;
 mod limits;
 mod located;
 mod pairs;
+mod poles;
 mod proxy;
 mod sweep;
 mod tools;
