@@ -172,22 +172,18 @@ impl Hessian<SIZE> for Bordered {
         };
         let [t_u, t_v] = self.tangents.map(free);
         let pull = free(vec3(slope[2], slope[3], slope[4])) * inverse;
-        // Pivots below a fraction of the diagonal, or no numbers.
-        let pivot = |pivot: f32, diagonal: f32| {
-            (pivot > MIN_PIVOT * diagonal && pivot > f32::MIN_POSITIVE).then_some(1.0 / pivot)
-        };
         let (mut u, mut v) = (0.0, 0.0);
         let of_u = -(slope[0] + t_u.dot(pull));
         let of_v = -(slope[1] + t_v.dot(pull));
         let cross = uv - inverse * t_u.dot(t_v);
         let mut row = (0.0, 0.0);
         if !held[0] {
-            let by = pivot(uu - inverse * t_u.length_squared(), uu)?;
+            let by = inverse_pivot(uu - inverse * t_u.length_squared(), uu)?;
             row = (by, cross * by);
         }
         if !held[1] {
             let of_v = of_v - row.1 * of_u;
-            v = of_v * pivot(vv - inverse * t_v.length_squared() - row.1 * cross, vv)?;
+            v = of_v * inverse_pivot(vv - inverse * t_v.length_squared() - row.1 * cross, vv)?;
         }
         if !held[0] {
             u = row.0 * of_u - row.1 * v;
@@ -195,6 +191,47 @@ impl Hessian<SIZE> for Bordered {
         let moved = (t_u * u + t_v * v) * inverse - pull;
         Some([u, v, moved.x, moved.y, moved.z])
     }
+}
+
+/// The same where no coordinate of the solid can move, as of a point: `B` alone, with the same roundings.
+pub(super) struct Block(pub [f32; 3]);
+
+impl Hessian<2> for Block {
+    #[inline]
+    fn diagonal(&self, i: usize) -> f32 {
+        self.0[2 * i]
+    }
+
+    #[inline]
+    fn slope(&self, slope: &[f32; 2], way: &[f32; 2]) -> [f32; 2] {
+        let ([uu, uv, vv], [u, v]) = (self.0, *way);
+        [slope[0] + (uu * u + uv * v), slope[1] + (uv * u + vv * v)]
+    }
+
+    #[inline]
+    fn newton(&self, slope: &[f32; 2], held: &[bool; 2]) -> Option<[f32; 2]> {
+        let [uu, uv, vv] = self.0;
+        let [of_u, of_v] = slope.map(|slope| -slope);
+        let (mut u, mut v, mut row) = (0.0, 0.0, (0.0, 0.0));
+        if !held[0] {
+            let by = inverse_pivot(uu, uu)?;
+            row = (by, uv * by);
+        }
+        if !held[1] {
+            let of_v = of_v - row.1 * of_u;
+            v = of_v * inverse_pivot(vv - row.1 * uv, vv)?;
+        }
+        if !held[0] {
+            u = row.0 * of_u - row.1 * v;
+        }
+        Some([u, v])
+    }
+}
+
+/// Of a pivot that is not below a fraction of the diagonal, and a number.
+#[inline]
+fn inverse_pivot(pivot: f32, diagonal: f32) -> Option<f32> {
+    (pivot > MIN_PIVOT * diagonal && pivot > f32::MIN_POSITIVE).then_some(1.0 / pivot)
 }
 
 #[cfg(test)]
@@ -240,7 +277,17 @@ mod tests {
                 let unit = core::array::from_fn(|k| f32::from(i == k));
                 assert_eq!(hessian.slope(&[0.0; SIZE], &unit)[i], hessian.diagonal(i));
             }
-            meets_the_conditions(&Quadratic { gradient, hessian, lower, upper });
+            let model = Quadratic { gradient, hessian, lower, upper };
+            meets_the_conditions(&model);
+            // Where no coordinate can move, to the last bit.
+            let held = |bounds: Step| [bounds[0], bounds[1], 0.0, 0.0, 0.0];
+            let held = Quadratic { lower: held(lower), upper: held(upper), ..model };
+            let [u, v, ..] = held.minimiser().expect("it is convex");
+            let short = |bounds: Step| [bounds[0], bounds[1]];
+            let (gradient, lower, upper) = (short(gradient), short(lower), short(upper));
+            let block = Quadratic { gradient, hessian: Block(held.hessian.block), lower, upper };
+            meets_the_conditions(&block);
+            assert_eq!(block.minimiser(), Some([u, v]));
         }
     }
 }

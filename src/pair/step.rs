@@ -5,7 +5,7 @@
 //! d_B]` and `s = −gᵀd`, the difference `ΔR = f − h` is a quadratic plus a remainder, so that theory §12's lemma holds
 //! as it stands (§14): `R (‖ΔR(t d)‖ − R) ≤ −s t + …`. A solid's `h` is linear, and has no remainder.
 
-use super::quadratic::{Bordered, Quadratic, SIZE, Step};
+use super::quadratic::{Block, Bordered, Quadratic, SIZE, Step};
 use super::tool::Region;
 use crate::body::Body;
 use crate::math::{Vec3, saturate, sqrt, sqrt_from_above, vec3};
@@ -115,6 +115,7 @@ impl Pair {
         }
         let squared = joint.difference.length_squared();
         let plan = match region {
+            Region::Solid { half: Vec3::ZERO, .. } => joint.plan(self, body, region, |shift| joint.of_point(shift)),
             Region::Solid { .. } => joint.plan(self, body, region, |shift| joint.bordered(shift)),
             Region::Surface(_) => joint.plan(self, body, region, |shift| joint.full(shift)),
         };
@@ -234,6 +235,20 @@ impl<'a> Joint<'a> {
         };
         let step = Quadratic { gradient, hessian, lower: self.lower, upper: self.upper }.minimiser()?;
         Some((step, -(0..SIZE).fold(0.0, |sum, i| sum + gradient[i] * step[i])))
+    }
+
+    /// The same of a point, which has no coordinates to move.
+    fn of_point(&self, shift: Option<f32>) -> Option<(Step, f32)> {
+        let [t_u, t_v, ..] = self.columns;
+        let metric = [t_u.length_squared(), t_u.dot(t_v), t_v.length_squared()];
+        let gradient = [t_u.dot(self.difference), t_v.dot(self.difference)];
+        let block = match shift {
+            Some(shift) => core::array::from_fn(|i| metric[i] + self.bend[i] + shift * metric[i]),
+            None => metric,
+        };
+        let [lower, upper] = [&self.lower, &self.upper].map(|bound| [bound[0], bound[1]]);
+        let [u, v] = Quadratic { gradient, hessian: Block(block), lower, upper }.minimiser()?;
+        Some(([u, v, 0.0, 0.0, 0.0], -(0.0 + gradient[0] * u + gradient[1] * v)))
     }
 
     /// The same of a core that is a body.
