@@ -194,7 +194,7 @@ impl ToolWitness {
         manifold.enter_parts(self.parts.awake(Kind::Corner), &within, size);
         let first = usize::from(manifold.count);
         for (a, b) in self.vertices(&region, placement) {
-            if let Some(contact) = ToolContact::of(a.point(), b, &within, |away| a.outward(body).dot(away) > 0.0) {
+            if let Some(contact) = ToolContact::of(a.point, b, &within, |away| a.outward.dot(away) > 0.0) {
                 manifold.enter(&contact, first, size);
             }
         }

@@ -7,7 +7,7 @@ use super::parts::{Part, Parts, rest};
 use super::scene::{NEARER, Scene, TOUCHING};
 use super::step::{Foot, Moved, Pair};
 use super::tool::{Core, Region, Tool};
-use crate::body::Body;
+use crate::body::{Body, Side};
 use crate::math::{Vec3, sqrt, sqrt_from_above};
 use crate::track::Placement;
 
@@ -75,7 +75,7 @@ pub struct ToolWitness {
     pub(super) pair: Pair,
     pub(super) parts: Parts,
     /// The corners of the pair's face of the body, and which face it is.
-    vertices: ([Foot; 4], u16),
+    vertices: ([Corner; 4], u16),
     /// Metres of the core's motion after which a corner of the face may be the nearest, or in contact.
     vertices_rest_for: f32,
     pub(super) rivals: [Option<Pair>; RIVALS],
@@ -88,6 +88,46 @@ pub struct ToolWitness {
     pub(super) is_inside: bool,
     /// Whether the pair passes the sign test.
     pub(super) is_in_front: bool,
+}
+
+/// A corner of a face of the body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Corner {
+    /// Where, metres.
+    pub point: Vec3,
+    /// Out of the body.
+    pub outward: Vec3,
+}
+
+/// The corners of a face: whether at the upper ends of its parameters.
+const ENDS: [[bool; 2]; 4] = [[false, false], [true, false], [false, true], [true, true]];
+
+const fn parameters_of([u, v]: [bool; 2]) -> [f32; 2] {
+    [if u { 1.0 } else { 0.0 }, if v { 1.0 } else { 0.0 }]
+}
+
+impl Corner {
+    const NONE: Self = Self { point: Vec3::ZERO, outward: Vec3::ZERO };
+
+    /// From the table of vertices; evaluated where that does not tell which way is out.
+    fn of(body: &Body, face: u16, upper: [bool; 2]) -> Self {
+        let [u, v] = upper.map(usize::from);
+        let side = body.faces().get(usize::from(face)).and_then(|face| face.sides.get(u));
+        let vertex = match side {
+            Some(Side::Pole { vertex }) => Some(*vertex),
+            Some(Side::Edge { edge, reversed, .. }) => {
+                body.edges().get(usize::from(*edge)).map(|edge| edge.ends[v ^ usize::from(*reversed)])
+            }
+            None => None,
+        };
+        match vertex.and_then(|vertex| body.vertices().get(usize::from(vertex))) {
+            Some(vertex) if vertex.outward != Vec3::ZERO => Self { point: vertex.point, outward: vertex.outward },
+            _ => {
+                let foot = Foot::on(body, face, parameters_of(upper));
+                Self { point: foot.point(), outward: foot.outward(body) }
+            }
+        }
+    }
 }
 
 impl<'a> Body<'a> {
@@ -194,7 +234,7 @@ impl ToolWitness {
         Self {
             pair,
             parts: Parts::none(),
-            vertices: ([pair.a; 4], u16::MAX),
+            vertices: ([Corner::NONE; 4], u16::MAX),
             vertices_rest_for: 0.0,
             rivals: [None; RIVALS],
             explorer: None,
@@ -243,11 +283,11 @@ impl ToolWitness {
         &'a self,
         region: &Region,
         placement: &'a Placement,
-    ) -> impl Iterator<Item = (&'a Foot, Vec3)> {
+    ) -> impl Iterator<Item = (&'a Corner, Vec3)> {
         let (vertices, face) = &self.vertices;
         let count = if *face == u16::MAX || self.vertices_rest_for > 0.0 { 0 } else { vertices.len() };
         let region = region.solid();
-        vertices.iter().take(count).map(move |a| (a, region.nearest(placement.point_to_b(a.point())).0))
+        vertices.iter().take(count).map(move |a| (a, region.nearest(placement.point_to_b(a.point)).0))
     }
 
     /// Whether the core's witness point or its axes have moved far since the last tick.
@@ -316,10 +356,12 @@ impl Scene<'_> {
         let is_point = matches!(self.region, Region::Solid { half: Vec3::ZERO, .. }) && self.body.is_convex();
         state.vertices_rest_for -= motion;
         if let (false, true, Region::Solid { middle, half }) = (is_point, state.vertices.1 != face, self.region) {
-            self.evaluations += 8;
+            self.evaluations += 4;
             state.vertices_rest_for = 0.0;
-            let ends = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
-            state.vertices = (ends.map(|end| Foot::on(self.body, face, end)), face);
+            state.vertices.1 = face;
+            for (corner, upper) in state.vertices.0.iter_mut().zip(ENDS) {
+                *corner = Corner::of(self.body, face, upper);
+            }
             for (number, border) in state.parts.changed_borders().iter_mut().enumerate() {
                 let mut at = state.pair.a.parameters;
                 at[number / 2] = if number % 2 == 0 { 0.0 } else { 1.0 };
@@ -332,19 +374,21 @@ impl Scene<'_> {
         let mut distance_of_pair = self.distance(&state.pair);
         let mut least = distance_of_pair - NEARER * self.body.size();
         let (mut nearest, mut rest_for) = (None, f32::INFINITY);
-        for (a, b) in state.vertices(&self.region, self.placement) {
-            let distance = sqrt((a.point() - self.placement.point_to_a(b)).length_squared());
+        for ((a, b), upper) in state.vertices(&self.region, self.placement).zip(ENDS) {
+            let distance = sqrt((a.point - self.placement.point_to_a(b)).length_squared());
             let rests = rest(distance, tool, least);
             rest_for = if rests < rest_for { rests } else { rest_for };
             if distance < least {
-                (least, nearest) = (distance, Some(Pair { a: *a, b: Foot::in_solid(b), halvings: 0 }));
+                (least, nearest) = (distance, Some((upper, b)));
             }
         }
         if rest_for < f32::INFINITY {
             state.vertices_rest_for = rest_for;
         }
-        if let Some(nearest) = nearest {
-            (state.pair, distance_of_pair) = (nearest, least);
+        if let Some((upper, b)) = nearest {
+            self.evaluations += 1;
+            state.pair = Pair { a: Foot::on(self.body, face, parameters_of(upper)), b: Foot::in_solid(b), halvings: 0 };
+            distance_of_pair = least;
         }
         for rival in state.rivals.iter_mut().flatten() {
             let distance = self.distance(rival);
