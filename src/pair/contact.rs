@@ -76,8 +76,12 @@ impl ToolContact {
         }
         let arm = within.placement.direction_to_a(part.pair.b.point());
         let distance = part.normal.dot(arm + within.placement.origin - part.pair.a.point());
-        let is_near = distance <= within.reach_of(arm);
-        is_near.then_some(Self { normal: part.normal, arm, gap: distance - within.radius, force: Vec3::ZERO })
+        within.holds(distance, arm).then_some(Self {
+            normal: part.normal,
+            arm,
+            gap: distance - within.radius,
+            force: Vec3::ZERO,
+        })
     }
 }
 
@@ -90,6 +94,11 @@ struct Within<'a> {
 }
 
 impl Within<'_> {
+    /// Whether a core's point is in reach. Most are so without the turn.
+    fn holds(&self, distance: f32, arm: Vec3) -> bool {
+        distance <= self.radius + self.reach_m || distance <= self.reach_of(arm)
+    }
+
     fn reach_of(&self, arm: Vec3) -> f32 {
         self.radius + self.reach_m + self.reach_rad * sqrt_from_above(arm.length_squared())
     }
@@ -155,22 +164,28 @@ impl Manifold {
         }
         let same = SAME_ARM * size;
         let is_known = self.contacts().iter().any(|known| {
-            (known.arm - contact.arm).length_squared() <= same * same && known.normal.dot(contact.normal) > SAME_NORMAL
+            let apart = known.arm - contact.arm;
+            // Most differ in the first coordinate.
+            apart.x.abs() <= same
+                && apart.length_squared() <= same * same
+                && known.normal.dot(contact.normal) > SAME_NORMAL
         });
         if is_known {
             return;
         }
-        let mut entering = *contact;
-        for (index, slot) in self.contacts.iter_mut().enumerate().skip(first) {
-            if index >= usize::from(self.count) {
-                *slot = entering;
-                self.count += 1;
-                return;
-            }
-            if entering.gap < slot.gap {
-                core::mem::swap(slot, &mut entering);
-            }
+        if !is_full {
+            self.count += 1;
         }
+        let Some(places) = self.contacts.get_mut(first..usize::from(self.count)) else { return };
+        // Those behind it move up from the last place on, which is free, or whose contact falls out.
+        let Some((mut place, mut rest)) = places.split_last_mut() else { return };
+        while let Some((before, more)) = core::mem::take(&mut rest).split_last_mut()
+            && contact.gap < before.gap
+        {
+            *place = *before;
+            (place, rest) = (before, more);
+        }
+        *place = *contact;
     }
 }
 
