@@ -199,7 +199,7 @@ pub(super) struct Block(pub [f32; 3]);
 impl Hessian<2> for Block {
     #[inline]
     fn diagonal(&self, i: usize) -> f32 {
-        self.0[2 * i]
+        if i == 0 { self.0[0] } else { self.0[2] }
     }
 
     #[inline]

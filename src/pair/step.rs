@@ -286,34 +286,27 @@ impl<'a> Joint<'a> {
         minimiser: impl Fn(Option<f32>) -> Option<(Step, f32)>,
     ) -> Option<(Step, f32)> {
         let mut best: Option<(Step, f32, f32)> = None;
-        let (mut promise, mut is_full) = (0.0, false);
+        let mut promise = 0.0;
         if pair.halvings == 0 {
             for shift in SHIFTS {
                 let Some((step, slope)) = minimiser(Some(shift)) else { continue };
                 let share = self.share(&step, slope, pair, body, region);
-                is_full = share >= 1.0 && slope > 0.0;
-                if is_full && best.is_none() {
-                    return Some((step, slope));
+                promise = largest(promise, slope);
+                if share >= 1.0 && slope > 0.0 {
+                    return Some((step, promise));
                 }
                 consider(&mut best, step, slope, share);
-                promise = largest(promise, slope);
-                // A larger shift takes a shorter step, and may promise less than the fraction of a longer one.
-                if is_full {
-                    break;
-                }
             }
         }
-        if !is_full {
-            // Always positive: the tangents span a plane, or one of them is left out.
-            let (step, slope) = minimiser(None).unwrap_or(([0.0; SIZE], 0.0));
-            let mut share = self.share(&step, slope, pair, body, region);
-            if share <= 0.0 && best.is_none() {
-                // Without bounds (next to a pole) the evaluation decides.
-                share = 1.0;
-            }
-            consider(&mut best, step, slope, share / f32::from(1_u16 << pair.halvings));
-            promise = largest(promise, slope);
+        // Always positive: the tangents span a plane, or one of them is left out.
+        let (step, slope) = minimiser(None).unwrap_or(([0.0; SIZE], 0.0));
+        let mut share = self.share(&step, slope, pair, body, region);
+        if share <= 0.0 && best.is_none() {
+            // Without bounds (next to a pole) the evaluation decides.
+            share = 1.0;
         }
+        consider(&mut best, step, slope, share / f32::from(1_u16 << pair.halvings));
+        promise = largest(promise, slope);
         best.map(|(step, _, share)| (step.map(|w| share * w), promise))
     }
 

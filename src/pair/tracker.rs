@@ -111,12 +111,12 @@ impl Corner {
 
     /// From the table of vertices; evaluated where that does not tell which way is out.
     fn of(body: &Body, face: u16, upper: [bool; 2]) -> Self {
-        let [u, v] = upper.map(usize::from);
-        let side = body.faces().get(usize::from(face)).and_then(|face| face.sides.get(u));
+        let [u, v] = upper;
+        let side = body.faces().get(usize::from(face)).and_then(|face| face.sides.get(usize::from(u)));
         let vertex = match side {
             Some(Side::Pole { vertex }) => Some(*vertex),
             Some(Side::Edge { edge, reversed, .. }) => {
-                body.edges().get(usize::from(*edge)).map(|edge| edge.ends[v ^ usize::from(*reversed)])
+                body.edges().get(usize::from(*edge)).map(|edge| edge.ends[usize::from(v != *reversed)])
             }
             None => None,
         };

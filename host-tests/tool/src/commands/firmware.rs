@@ -409,7 +409,7 @@ mod tests {
             (options::millimetres(place).expect("three numbers") + centre).as_vec3()
         };
         let error = reaches(0.4, 0.0).unwrap_err();
-        assert!(error.contains("of the whole surface 0 %"), "{error}");
+        assert!(error.contains("of the surface itself it holds 0 %"), "{error}");
         let at = nearest(&error);
         assert_eq!(reaches_at(at), Ok(()));
         // A sixteenth of the way back, it is out of reach again.
