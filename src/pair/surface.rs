@@ -29,8 +29,8 @@ const MAX_TURN_RAD_PER_S: f32 = 40.0;
 ///
 /// An orientation that is older than 20 ms, no rotation, or 40 rad/s from the one before ends contact as an implausible one does ([`crate::servo::ContactLimits`]): the force fades, the contacts are located again.
 ///
-/// The work of a tick is bounded, but large: on the capped box a ball takes at most 6,780 instructions of a Cortex-M4F, a
-/// capsule 15,460 and a box 23,149 (`palpate budgets --tool MODEL`; in single ticks, in which the face changes). Count it
+/// The work of a tick is bounded, but large: on the capped box a ball takes at most 6,845 instructions of a Cortex-M4F, a
+/// capsule 15,559 and a box 23,270 (`palpate budgets --tool MODEL`; in single ticks, in which the face changes). Count it
 /// for your body and tool before you choose a rate; a tick that is late is a fault.
 ///
 /// Without torque the force does not conserve energy along paths that turn the tool in contact (Barbagli & Salisbury
