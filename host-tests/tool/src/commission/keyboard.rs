@@ -198,8 +198,8 @@ impl Hands for Person {
         let places = self.names.iter().zip(angles);
         let places: Vec<_> = places.map(|(name, angle)| format!("{name} at {:.2}°", angle.to_degrees())).collect();
         self.ask(&format!(
-            "Hold the arm in the very pose in which you will hold it whenever its board is homed (as the file has it, \
-             joint {}): what is measured is where that is. Enter when it is.",
+            "Hold the arm in the pose in which its board will be homed (by the file, joint {}): that pose is measured. \
+             Enter when it is there.",
             places.join(", ")
         ))?;
         self.follow(|hands| hands.pose(angles))
